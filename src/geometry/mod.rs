@@ -1,0 +1,7 @@
+//! Rays, boxes, transforms, shapes and the bounding volume hierarchy. Knows nothing of materials or light.
+
+mod aabb;
+mod ray;
+
+pub use aabb::Aabb;
+pub use ray::{Ray, offset_origin};

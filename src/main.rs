@@ -1,0 +1,5 @@
+//! The `abbe` command.
+
+fn main() -> std::process::ExitCode {
+    abbe::cli::main()
+}

@@ -1,0 +1,9 @@
+//! `SceneDescription`: scene.json as plain data, in the user's names and units.
+//!
+//! Parsing checks everything that can be checked without opening another file: types, ranges, unknown and duplicate
+//! keys, names. What needs files, tables or geometry is checked by [`crate::scene::compile`], which reports with the
+//! JSON path that each part of the description carries as `at`.
+
+mod types;
+
+pub use types::*;

@@ -1,0 +1,3 @@
+//! Scenes: description (the file's words) → compile → [`Scene`] (what the renderer sees).
+
+pub mod description;
