@@ -1,1 +1,14 @@
-//! To be written.
+//! Random numbers and warps: Owen-scrambled Sobol points, discrete and piecewise-linear distributions, maps from the unit
+//! square to directions and discs, and weights for combining techniques. Nothing here knows what is being sampled.
+
+mod alias;
+mod mis;
+mod piecewise;
+mod sobol;
+mod warp;
+
+pub use alias::AliasTable;
+pub use mis::balance_heuristic;
+pub use piecewise::PiecewiseLinearDensity;
+pub use sobol::{DIMENSIONS, Sobol, mix};
+pub use warp::{concentric_disk, cosine_hemisphere, orthonormal_basis, uniform_cone, uniform_sphere};

@@ -1,0 +1,31 @@
+//! The smooth metal.
+
+use super::BsdfSample;
+use super::mirror::mirror_direction;
+use crate::geometry::Frame;
+use crate::optics::fresnel_conductor;
+use crate::spectrum::{LANES, SampledSpectrum};
+use glam::Vec3;
+
+/// Reflects into the mirror direction by Fresnel's equations with a complex index.
+#[derive(Debug, Clone, Copy)]
+pub struct Conductor {
+    /// Real part of the index, relative to air.
+    pub eta: SampledSpectrum,
+    /// Imaginary part.
+    pub k: SampledSpectrum,
+    /// Index of the medium in front of it: a metal under water reflects less.
+    pub eta_outside: [f64; LANES],
+}
+
+impl Conductor {
+    /// The mirror direction, weighted lane by lane.
+    pub fn sample(&self, frame: &Frame, wo: Vec3) -> Option<BsdfSample> {
+        let cos_theta = frame.geometric.dot(wo.as_dvec3().normalize()).abs();
+        let (eta, k) = (self.eta.lanes(), self.k.lanes());
+        let weight = SampledSpectrum::from_fn(|lane| {
+            fresnel_conductor(cos_theta, self.eta_outside[lane], f64::from(eta[lane]), f64::from(k[lane])) as f32
+        });
+        Some(BsdfSample { wi: mirror_direction(frame, wo), weight, pdf: None })
+    }
+}

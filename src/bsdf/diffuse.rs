@@ -1,0 +1,34 @@
+//! Lambertian reflection.
+
+use super::BsdfSample;
+use crate::geometry::Frame;
+use crate::sampling::cosine_hemisphere;
+use crate::spectrum::SampledSpectrum;
+use glam::Vec3;
+use std::f32::consts::FRAC_1_PI;
+
+/// Reflects the same radiance in every direction: f = reflectance / π.
+#[derive(Debug, Clone, Copy)]
+pub struct Diffuse {
+    /// Reflected share of the light, in [0, 1].
+    pub reflectance: SampledSpectrum,
+}
+
+impl Diffuse {
+    /// f · |cos θ_i|.
+    pub fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+        if frame.same_side(wo, wi) { self.reflectance * (frame.cos_shading(wi).max(0.0) * FRAC_1_PI) } else { SampledSpectrum::ZERO }
+    }
+
+    /// Draws in proportion to cos θ about the shading normal.
+    pub fn sample(&self, frame: &Frame, wo: Vec3, u: [f32; 2]) -> Option<BsdfSample> {
+        let wi = frame.world_from_local(cosine_hemisphere(u));
+        let pdf = frame.cos_shading(wi) * FRAC_1_PI;
+        (pdf > 0.0 && frame.same_side(wo, wi)).then_some(BsdfSample { wi, weight: self.reflectance, pdf: Some(pdf) })
+    }
+
+    /// cos θ_i / π.
+    pub fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> f32 {
+        if frame.same_side(wo, wi) { frame.cos_shading(wi).max(0.0) * FRAC_1_PI } else { 0.0 }
+    }
+}

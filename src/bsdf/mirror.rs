@@ -1,0 +1,26 @@
+//! The perfect mirror.
+
+use super::BsdfSample;
+use crate::geometry::Frame;
+use crate::optics;
+use crate::spectrum::SampledSpectrum;
+use glam::Vec3;
+
+/// Reflects into the mirror direction alone. The direction is the same at every wavelength, so lanes never separate.
+#[derive(Debug, Clone, Copy)]
+pub struct Mirror {
+    /// Reflected share of the light, in [0, 1].
+    pub reflectance: SampledSpectrum,
+}
+
+impl Mirror {
+    /// The mirror direction.
+    pub fn sample(&self, frame: &Frame, wo: Vec3) -> Option<BsdfSample> {
+        Some(BsdfSample { wi: mirror_direction(frame, wo), weight: self.reflectance, pdf: None })
+    }
+}
+
+/// Mirror image of `wo` about the geometric normal, in f64 as every specular direction.
+pub(super) fn mirror_direction(frame: &Frame, wo: Vec3) -> Vec3 {
+    optics::reflect(-wo.as_dvec3().normalize(), frame.geometric).as_vec3()
+}

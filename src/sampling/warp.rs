@@ -1,0 +1,89 @@
+//! Maps from the unit square to directions and discs that keep areas in proportion and neighbours together.
+
+use crate::math;
+use glam::Vec3;
+use std::f32::consts::{FRAC_PI_4, PI, TAU};
+
+/// Uniform points on the unit disc [ShirleyChiu1997].
+pub fn concentric_disk(u: [f32; 2]) -> [f32; 2] {
+    let (a, b) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
+    if a == 0.0 && b == 0.0 {
+        return [0.0, 0.0];
+    }
+    let (radius, angle) =
+        if a.abs() > b.abs() { (a, FRAC_PI_4 * (b / a)) } else { (b, 2.0 * FRAC_PI_4 - FRAC_PI_4 * (a / b)) };
+    let (sin, cos) = math::sin_cos_f32(angle);
+    [radius * cos, radius * sin]
+}
+
+/// Directions about +z with density cos θ / π. Never exactly horizontal.
+pub fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
+    let [x, y] = concentric_disk(u);
+    let z = (1.0 - x * x - y * y).max(f32::EPSILON * f32::EPSILON).sqrt();
+    Vec3::new(x, y, z)
+}
+
+/// Uniform directions on the unit sphere, density 1 / 4π.
+pub fn uniform_sphere(u: [f32; 2]) -> Vec3 {
+    let z = 1.0 - 2.0 * u[0];
+    around_z(z, (1.0 - z * z).max(0.0).sqrt(), u[1])
+}
+
+/// Uniform directions in the cone about +z whose half angle θ has 1 − cos θ = `one_minus_cos`; density
+/// 1 / (2π `one_minus_cos`). The cone is given by 1 − cos θ since narrow ones (the sun: 1.1e-5) need its digits.
+pub fn uniform_cone(u: [f32; 2], one_minus_cos: f32) -> Vec3 {
+    let h = u[0] * one_minus_cos;
+    around_z(1.0 - h, (h * (2.0 - h)).max(0.0).sqrt(), u[1])
+}
+
+/// A unit vector of height `z` and distance `radius` from the z axis, `turn` of the way around it.
+fn around_z(z: f32, radius: f32, turn: f32) -> Vec3 {
+    let (sin, cos) = math::sin_cos_f32(if turn < 0.5 { TAU * turn } else { TAU * turn - 2.0 * PI });
+    Vec3::new(radius * cos, radius * sin, z)
+}
+
+/// Two unit vectors that make a right-handed frame with the unit vector `n` as third [Duff2017].
+pub fn orthonormal_basis(n: Vec3) -> (Vec3, Vec3) {
+    let sign = 1.0f32.copysign(n.z);
+    let a = -1.0 / (sign + n.z);
+    let b = n.x * n.y * a;
+    (Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), Vec3::new(b, sign + n.y * n.y * a, -n.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::Sobol;
+
+    fn mean(f: impl Fn([f32; 2]) -> f64) -> f64 {
+        let sobol = Sobol::new(11);
+        let n = 1 << 14;
+        (0..n).map(|i| sobol.group(i, 0)).map(|p| f([p[0], p[1]])).sum::<f64>() / n as f64
+    }
+
+    /// Moments of each density against closed forms.
+    #[test]
+    fn moments() {
+        assert!((mean(|u| f64::from(cosine_hemisphere(u).z)) - 2.0 / 3.0).abs() < 1e-3);
+        assert!((mean(|u| f64::from(cosine_hemisphere(u).x).abs()) - 4.0 / (3.0 * std::f64::consts::PI)).abs() < 1e-3);
+        assert!(mean(|u| f64::from(uniform_sphere(u).z)).abs() < 1e-3);
+        assert!((mean(|u| f64::from(uniform_sphere(u).y).abs()) - 0.5).abs() < 1e-3);
+        let h = 0.25;
+        assert!((mean(|u| f64::from(uniform_cone(u, h).z)) - (1.0 - f64::from(h) / 2.0)).abs() < 1e-4);
+        let [x2, y2] = [0, 1].map(|k| mean(|u| f64::from(concentric_disk(u)[k]) * f64::from(concentric_disk(u)[k])));
+        assert!((x2 - 0.25).abs() < 1e-3 && (y2 - 0.25).abs() < 1e-3);
+    }
+
+    #[test]
+    fn unit_length_and_right_handed_frames() {
+        let sobol = Sobol::new(4);
+        for i in 0..10_000 {
+            let p = sobol.group(i, 0);
+            let n = uniform_sphere([p[0], p[1]]);
+            assert!((n.length() - 1.0).abs() < 1e-6);
+            assert!((uniform_cone([p[2], p[3]], 1e-5).length() - 1.0).abs() < 1e-6);
+            let (s, t) = orthonormal_basis(n);
+            assert!(s.cross(t).distance(n) < 1e-5 && s.dot(t).abs() < 1e-6);
+        }
+    }
+}

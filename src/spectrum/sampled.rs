@@ -1,0 +1,147 @@
+//! Values at the wavelengths of a path.
+
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Sub};
+use wide::f32x8;
+
+/// Wavelengths that a path carries.
+pub const LANES: usize = 8;
+
+/// The values of a spectrum at the [`LANES`] wavelengths of a path; the wavelengths themselves travel beside it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SampledSpectrum(f32x8);
+
+impl SampledSpectrum {
+    /// 0 everywhere.
+    pub const ZERO: Self = Self(f32x8::ZERO);
+    /// 1 everywhere.
+    pub const ONE: Self = Self(f32x8::ONE);
+
+    /// The same value in every lane.
+    pub fn splat(value: f32) -> Self {
+        Self(f32x8::splat(value))
+    }
+
+    /// From the lanes.
+    pub fn new(lanes: [f32; LANES]) -> Self {
+        Self(f32x8::new(lanes))
+    }
+
+    /// From a function of the lane's index.
+    pub fn from_fn(f: impl FnMut(usize) -> f32) -> Self {
+        Self::new(std::array::from_fn(f))
+    }
+
+    /// The lanes.
+    pub fn lanes(self) -> [f32; LANES] {
+        self.0.to_array()
+    }
+
+    /// One lane.
+    pub fn lane(self, lane: usize) -> f32 {
+        self.0.to_array()[lane]
+    }
+
+    /// This lane's value there, 0 in the others.
+    pub fn only(self, lane: usize) -> Self {
+        let lanes = self.lanes();
+        Self::from_fn(|k| if k == lane { lanes[k] } else { 0.0 })
+    }
+
+    /// Sum of the lanes.
+    pub fn sum(self) -> f32 {
+        self.lanes().into_iter().sum()
+    }
+
+    /// Mean of the lanes.
+    pub fn mean(self) -> f32 {
+        self.sum() * (1.0 / LANES as f32)
+    }
+
+    /// Largest lane.
+    pub fn max(self) -> f32 {
+        self.lanes().into_iter().fold(f32::NEG_INFINITY, f32::max)
+    }
+
+    /// Whether every lane is 0.
+    pub fn is_zero(self) -> bool {
+        self.0 == f32x8::ZERO
+    }
+
+    /// Whether no lane is NaN or infinite.
+    pub fn is_finite(self) -> bool {
+        self.lanes().into_iter().all(f32::is_finite)
+    }
+
+    /// Lanes below the smallest normal number become 0: arithmetic on denormals is slow and loses digits.
+    pub fn without_denormals(self) -> Self {
+        Self(self.0.simd_lt(f32x8::splat(f32::MIN_POSITIVE)).select(f32x8::ZERO, self.0))
+    }
+}
+
+impl Add for SampledSpectrum {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+}
+
+impl Sub for SampledSpectrum {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self(self.0 - other.0)
+    }
+}
+
+impl Mul for SampledSpectrum {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self(self.0 * other.0)
+    }
+}
+
+impl Mul<f32> for SampledSpectrum {
+    type Output = Self;
+    fn mul(self, factor: f32) -> Self {
+        Self(self.0 * f32x8::splat(factor))
+    }
+}
+
+impl Div for SampledSpectrum {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        Self(self.0 / other.0)
+    }
+}
+
+impl AddAssign for SampledSpectrum {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl MulAssign for SampledSpectrum {
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl MulAssign<f32> for SampledSpectrum {
+    fn mul_assign(&mut self, factor: f32) {
+        *self = *self * factor;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lanes_and_denormals() {
+        let s = SampledSpectrum::from_fn(|k| k as f32);
+        assert_eq!(s.only(3).lanes(), [0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!((s.mean(), s.max(), s.lane(7)), (3.5, 7.0, 7.0));
+        let tiny = SampledSpectrum::splat(f32::MIN_POSITIVE / 2.0);
+        assert!(!tiny.is_zero() && tiny.without_denormals().is_zero());
+        assert_eq!(s.without_denormals(), s);
+    }
+}
