@@ -94,7 +94,9 @@ impl Dielectric {
 
         match refraction {
             Some(refraction) if u >= q => DielectricSample {
-                direction: refraction.direction(d, normal, cos_theta_i, self.from.eta[hero], self.to.eta[hero]).as_vec3(),
+                direction: refraction
+                    .direction(d, normal, cos_theta_i, self.from.eta[hero], self.to.eta[hero])
+                    .as_vec3(),
                 weight: (SampledSpectrum::ONE - reflectance) * (1.0 / (1.0 - q)),
                 radiance_scale: self.radiance_scale::<DISPERSION>(dispersive, hero),
                 refracted: true,

@@ -17,7 +17,11 @@ pub struct Diffuse {
 impl Diffuse {
     /// f · |cos θ_i|.
     pub fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        if frame.same_side(wo, wi) { self.reflectance * (frame.cos_shading(wi).max(0.0) * FRAC_1_PI) } else { SampledSpectrum::ZERO }
+        if frame.same_side(wo, wi) {
+            self.reflectance * (frame.cos_shading(wi).max(0.0) * FRAC_1_PI)
+        } else {
+            SampledSpectrum::ZERO
+        }
     }
 
     /// Draws in proportion to cos θ about the shading normal.

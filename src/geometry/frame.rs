@@ -1,6 +1,5 @@
 //! Normals at a hit.
 
-use crate::sampling::orthonormal_basis;
 use glam::{DVec3, Vec3};
 
 /// Normals of a surface at a hit, both turned to the side that is being looked at.
@@ -28,5 +27,27 @@ impl Frame {
     pub fn world_from_local(&self, local: Vec3) -> Vec3 {
         let (s, t) = orthonormal_basis(self.shading);
         s * local.x + t * local.y + self.shading * local.z
+    }
+}
+
+/// Two unit vectors that make a right-handed frame with the unit vector `n` as third [Duff2017].
+pub fn orthonormal_basis(n: Vec3) -> (Vec3, Vec3) {
+    let sign = 1.0f32.copysign(n.z);
+    let a = -1.0 / (sign + n.z);
+    let b = n.x * n.y * a;
+    (Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), Vec3::new(b, sign + n.y * n.y * a, -n.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bases_are_right_handed() {
+        for i in 0..1000i32 {
+            let n = Vec3::new((i % 7 - 3) as f32, (i % 11 - 5) as f32, (i % 13 - 6) as f32).normalize_or(-Vec3::Z);
+            let (s, t) = orthonormal_basis(n);
+            assert!(s.cross(t).distance(n) < 1e-5 && s.dot(t).abs() < 1e-6);
+        }
     }
 }

@@ -5,5 +5,5 @@ mod frame;
 mod ray;
 
 pub use aabb::Aabb;
-pub use frame::Frame;
+pub use frame::{Frame, orthonormal_basis};
 pub use ray::{Ray, offset_origin};

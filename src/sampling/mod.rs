@@ -11,4 +11,4 @@ pub use alias::AliasTable;
 pub use mis::balance_heuristic;
 pub use piecewise::PiecewiseLinearDensity;
 pub use sobol::{DIMENSIONS, Sobol, mix};
-pub use warp::{concentric_disk, cosine_hemisphere, orthonormal_basis, uniform_cone, uniform_sphere};
+pub use warp::{concentric_disk, cosine_hemisphere, uniform_cone, uniform_sphere};

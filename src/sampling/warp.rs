@@ -42,14 +42,6 @@ fn around_z(z: f32, radius: f32, turn: f32) -> Vec3 {
     Vec3::new(radius * cos, radius * sin, z)
 }
 
-/// Two unit vectors that make a right-handed frame with the unit vector `n` as third [Duff2017].
-pub fn orthonormal_basis(n: Vec3) -> (Vec3, Vec3) {
-    let sign = 1.0f32.copysign(n.z);
-    let a = -1.0 / (sign + n.z);
-    let b = n.x * n.y * a;
-    (Vec3::new(1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x), Vec3::new(b, sign + n.y * n.y * a, -n.y))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,15 +67,13 @@ mod tests {
     }
 
     #[test]
-    fn unit_length_and_right_handed_frames() {
+    fn unit_length() {
         let sobol = Sobol::new(4);
         for i in 0..10_000 {
             let p = sobol.group(i, 0);
             let n = uniform_sphere([p[0], p[1]]);
             assert!((n.length() - 1.0).abs() < 1e-6);
             assert!((uniform_cone([p[2], p[3]], 1e-5).length() - 1.0).abs() < 1e-6);
-            let (s, t) = orthonormal_basis(n);
-            assert!(s.cross(t).distance(n) < 1e-5 && s.dot(t).abs() < 1e-6);
         }
     }
 }

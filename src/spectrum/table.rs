@@ -39,9 +39,8 @@ impl SpectrumTable {
         segments.push(flat(lambda_nm[lambda_nm.len() - 1] as f32, values[values.len() - 1]));
         let first_nm = lambda_nm[0].floor() as f32;
         let count = (lambda_nm[lambda_nm.len() - 1] as f32 - first_nm).ceil() as usize + 1;
-        let guide = (0..count)
-            .map(|i| segments.partition_point(|s| s.start_nm <= first_nm + i as f32) as u32 - 1)
-            .collect();
+        let guide =
+            (0..count).map(|i| segments.partition_point(|s| s.start_nm <= first_nm + i as f32) as u32 - 1).collect();
         Self { segments, guide, first_nm }
     }
 
