@@ -1,1 +1,3 @@
-//! To be written.
+//! Reading and writing files.
+
+pub mod refractive_index_info;
