@@ -46,7 +46,8 @@ fn read_text(path: &Path) -> Result<String> {
     let mut bytes = Vec::new();
     file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(cannot_read)?;
     if bytes.len() as u64 > MAX_FILE_BYTES {
-        let message = format!("the file is larger than {} MB: expected a refractiveindex.info file", MAX_FILE_BYTES >> 20);
+        let message =
+            format!("the file is larger than {} MB: expected a refractiveindex.info file", MAX_FILE_BYTES >> 20);
         return Err(Error::new(ErrorKind::LimitExceeded, message));
     }
     String::from_utf8(bytes).map_err(|e| {
@@ -104,7 +105,10 @@ fn read_block(block: &Spanned<Block>, i: usize) -> Result<(Option<IndexOfRefract
     let kind = required(&block.value.kind, "type")?;
     let mut words = kind.value.split_whitespace();
     let unsupported = || {
-        let message = format!("{:?}: expected \"formula 1\" to \"formula 9\", \"tabulated n\", \"tabulated k\" or \"tabulated nk\"", shortened(&kind.value));
+        let message = format!(
+            "{:?}: expected \"formula 1\" to \"formula 9\", \"tabulated n\", \"tabulated k\" or \"tabulated nk\"",
+            shortened(&kind.value)
+        );
         Error::new(ErrorKind::Unsupported, message).at(place(line_of(&kind), &at("type")))
     };
     match (words.next(), words.next(), words.next()) {
@@ -164,7 +168,11 @@ fn read_table(text: &str, columns: usize) -> Result<Vec<Table>> {
         let at_row = |e: Error| e.at(format!(", row {}", i + 1));
         let numbers = read_numbers(line).map_err(at_row)?;
         if numbers.len() != columns + 1 {
-            let message = format!("found {} numbers, expected {}: the wavelength in µm and {columns} more", numbers.len(), columns + 1);
+            let message = format!(
+                "found {} numbers, expected {}: the wavelength in µm and {columns} more",
+                numbers.len(),
+                columns + 1
+            );
             return Err(at_row(Error::new(ErrorKind::FileFormat, message)));
         }
         if numbers[0] <= 0.0 {
@@ -214,7 +222,7 @@ fn shortened(text: &str) -> String {
 }
 
 fn line_of<T>(value: &Spanned<T>) -> u64 {
-    u64::from(value.defined.line())
+    value.defined.line()
 }
 
 fn place(line: u64, key: &str) -> String {

@@ -100,7 +100,8 @@ impl IndexOfRefraction {
     /// `Missing` if the lists are empty or of unequal length, `NotFinite`.
     pub fn sellmeier(b: &[f64], c_um2: &[f64]) -> Result<Self> {
         if b.is_empty() || b.len() != c_um2.len() {
-            let message = format!("expected as many b as c_um2 and at least one, found {} and {}", b.len(), c_um2.len());
+            let message =
+                format!("expected as many b as c_um2 and at least one, found {} and {}", b.len(), c_um2.len());
             return Err(Error::new(ErrorKind::Missing, message));
         }
         if let Some(x) = b.iter().chain(c_um2).find(|x| !x.is_finite()) {
@@ -134,7 +135,10 @@ impl IndexOfRefraction {
     pub fn from_abbe(n_d: f64, v_d: f64) -> Result<Self> {
         check_index(n_d, "n_d", 0.0)?;
         if !v_d.is_finite() {
-            return Err(Error::new(ErrorKind::NotFinite, format!("the Abbe number is {v_d}: expected a finite number")));
+            return Err(Error::new(
+                ErrorKind::NotFinite,
+                format!("the Abbe number is {v_d}: expected a finite number"),
+            ));
         }
         if v_d <= 0.0 {
             return Err(Error::new(ErrorKind::OutOfRange, format!("the Abbe number is {v_d}: expected more than 0")));

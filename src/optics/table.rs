@@ -82,7 +82,8 @@ mod tests {
     #[test]
     fn is_linear_between_rows_and_constant_beyond() {
         let table = Table::new(vec![400.0, 500.0, 700.0], vec![1.0, 2.0, 1.0]).unwrap();
-        let expected = [(300.0, 1.0), (400.0, 1.0), (425.0, 1.25), (500.0, 2.0), (600.0, 1.5), (700.0, 1.0), (900.0, 1.0)];
+        let expected =
+            [(300.0, 1.0), (400.0, 1.0), (425.0, 1.25), (500.0, 2.0), (600.0, 1.5), (700.0, 1.0), (900.0, 1.0)];
         for (lambda_nm, value) in expected {
             assert_eq!(table.eval(lambda_nm), value, "{lambda_nm} nm");
         }

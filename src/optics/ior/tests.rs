@@ -4,7 +4,10 @@ use proptest::prelude::*;
 const BK7_B: [f64; 3] = [1.03961212, 0.231792344, 1.01046945];
 const BK7_C: [f64; 3] = [0.00600069867, 0.0200179144, 103.560653];
 
-fn checked(ior: Result<IndexOfRefraction>, extrapolation: Extrapolation) -> Result<(IndexOfRefraction, Option<String>)> {
+fn checked(
+    ior: Result<IndexOfRefraction>,
+    extrapolation: Extrapolation,
+) -> Result<(IndexOfRefraction, Option<String>)> {
     ior?.checked("glass \"X\"", extrapolation)
 }
 
@@ -75,10 +78,7 @@ fn formulas_are_continued_by_100_nm_with_a_warning_that_names_the_glass() {
     assert_eq!(ior.range_nm(), Some([300.0, 2500.0]));
 
     let (ior, warning) = checked(bk7(400.0, 730.0), Extrapolation::Continue).unwrap();
-    assert_eq!(
-        warning.unwrap(),
-        "glass \"X\": the formula is valid over 400–730 nm, continued to 360–830 nm"
-    );
+    assert_eq!(warning.unwrap(), "glass \"X\": the formula is valid over 400–730 nm, continued to 360–830 nm");
     assert_eq!(ior.eval(830.0), bk7(300.0, 2500.0).unwrap().eval(830.0));
 
     for (from_nm, to_nm) in [(300.0, 729.9), (460.1, 900.0)] {
