@@ -1,1 +1,4 @@
-//! To be written.
+//! Reading and writing files.
+
+pub mod catalogue;
+pub mod refractive_index_info;
