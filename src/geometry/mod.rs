@@ -2,8 +2,18 @@
 
 mod aabb;
 mod frame;
+mod analytic;
+mod disk;
+pub mod implicit;
+mod lens;
 mod ray;
+mod sphere;
 
 pub use aabb::Aabb;
 pub use frame::{Frame, orthonormal_basis};
+pub use analytic::{Analytic, AnalyticHit, AnalyticShape};
+pub use disk::Disk;
+pub use implicit::{IMPLICIT_KINDS, Implicit, ImplicitKind};
+pub use lens::Lens;
 pub use ray::{Ray, offset_origin};
+pub use sphere::Sphere;
