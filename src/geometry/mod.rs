@@ -17,3 +17,11 @@ pub use implicit::{IMPLICIT_KINDS, Implicit, ImplicitKind};
 pub use lens::Lens;
 pub use ray::{Ray, offset_origin};
 pub use sphere::Sphere;
+pub mod bvh;
+mod ray;
+mod triangle;
+
+pub use aabb::Aabb;
+pub use bvh::{Bvh, BvhHit, Primitive};
+pub use ray::{Ray, offset_origin};
+pub use triangle::{TriangleHit, geometric_normal, sample_triangle, triangle_area};

@@ -1,0 +1,158 @@
+//! Speed of the bounding volume hierarchy, one thread: `cargo bench --bench traversal`.
+//!
+//! Prints build time and millions of rays a second: coherent (a pinhole camera), incoherent (cosine-distributed from the
+//! points that the camera sees) and shadow (from those points to a point light). Icospheres stand in a room of 12
+//! triangles, as in the published comparisons; the last scenes are the few dozen triangles of a Cornell box.
+
+use abbe::geometry::{Aabb, Bvh, Ray, TriangleHit, geometric_normal, offset_origin};
+use glam::Vec3;
+use std::collections::HashMap;
+use std::time::Instant;
+
+struct Mesh {
+    positions: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    fn cuboid(&mut self, center: Vec3, half: Vec3) {
+        let base = self.positions.len() as u32;
+        for corner in 0..8u32 {
+            let sign = |bit: u32| if corner >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            self.positions.push(center + half * Vec3::new(sign(0), sign(1), sign(2)));
+        }
+        for [a, b, c, d] in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
+            self.triangles.push([base + a, base + b, base + c]);
+            self.triangles.push([base + a, base + c, base + d]);
+        }
+    }
+
+    fn icosphere(&mut self, radius: f32, levels: u32) {
+        let g = (1.0 + 5f32.sqrt()) / 2.0;
+        let mut points: Vec<Vec3> = [[-1.0, g, 0.0], [1.0, g, 0.0], [-1.0, -g, 0.0], [1.0, -g, 0.0]]
+            .into_iter()
+            .flat_map(|[x, y, z]: [f32; 3]| [Vec3::new(x, y, z), Vec3::new(z, x, y), Vec3::new(y, z, x)])
+            .map(Vec3::normalize)
+            .collect();
+        let edge = points[0].distance(points[3]).min(points[0].distance(points[6])).min(points[0].distance(points[1]));
+        let near = |a: usize, b: usize| points[a].distance(points[b]) < edge * 1.01;
+        let mut faces = Vec::new();
+        for a in 0..12 {
+            for b in a + 1..12 {
+                for c in b + 1..12 {
+                    if near(a, b) && near(b, c) && near(a, c) {
+                        faces.push([a as u32, b as u32, c as u32]);
+                    }
+                }
+            }
+        }
+        for _ in 0..levels {
+            let mut middles = HashMap::new();
+            faces = faces
+                .into_iter()
+                .flat_map(|[a, b, c]| {
+                    let mut middle = |a: u32, b: u32| {
+                        *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                            points.push((points[a as usize] + points[b as usize]).normalize());
+                            points.len() as u32 - 1
+                        })
+                    };
+                    let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+                    [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
+                })
+                .collect();
+        }
+        let base = self.positions.len() as u32;
+        self.positions.extend(points.into_iter().map(|point| point * radius));
+        self.triangles.extend(faces.into_iter().map(|face| face.map(|vertex| base + vertex)));
+    }
+}
+
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f32 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        loop {
+            let v = Vec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0;
+            if v.length_squared() < 1.0 && v.length_squared() > 0.01 {
+                return v.normalize();
+            }
+        }
+    }
+}
+
+/// Best of several passes, in millions of rays a second.
+fn speed(rays: &[(Ray, f32)], mut trace: impl FnMut(&Ray, f32) -> bool) -> (f64, usize) {
+    let mut best = f64::INFINITY;
+    let mut hits = 0;
+    for _ in 0..5 {
+        let start = Instant::now();
+        hits = rays.iter().filter(|(ray, t_max)| trace(ray, *t_max)).count();
+        best = best.min(start.elapsed().as_secs_f64());
+    }
+    (rays.len() as f64 / best * 1e-6, hits)
+}
+
+fn measure(name: &str, mesh: &Mesh, eye: Vec3) {
+    let start = Instant::now();
+    let bvh = Bvh::build(&mesh.positions, &mesh.triangles, &[]);
+    let build = start.elapsed().as_secs_f64() * 1e3;
+    let side = 400;
+    let mut coherent = Vec::new();
+    for y in 0..side {
+        for x in 0..side {
+            let at = |i: u32| (i as f32 + 0.5) / side as f32 - 0.5;
+            coherent.push((Ray { origin: eye, direction: Vec3::new(at(x), at(y), -0.8).normalize() }, f32::INFINITY));
+        }
+    }
+    let light = Vec3::new(0.3, 0.8, 0.2);
+    let (mut secondary, mut shadow, mut random) = (Vec::new(), Vec::new(), Random(1));
+    for (ray, t_max) in &coherent {
+        let Some(hit) = bvh.closest(ray, *t_max, |_, _| None) else { continue };
+        let abbe::geometry::Primitive::Triangle(index) = hit.primitive else { continue };
+        let corners = mesh.triangles[index as usize].map(|vertex| mesh.positions[vertex as usize]);
+        let (Some(point), Some(normal)) =
+            (TriangleHit::new(ray, corners), geometric_normal(corners[0], corners[1], corners[2]))
+        else {
+            continue;
+        };
+        let normal = if normal.dot(ray.direction) > 0.0 { -normal } else { normal };
+        let direction = (normal + random.direction()).normalize_or(normal);
+        let origin = offset_origin(point.point, point.error, normal, normal);
+        secondary.push((Ray { origin, direction }, f32::INFINITY));
+        let to_light = light - origin;
+        shadow.push((Ray { origin, direction: to_light.normalize() }, to_light.length()));
+    }
+    let closest = |ray: &Ray, t_max: f32| bvh.closest(ray, t_max, |_, _| None).is_some();
+    let (primary, seen) = speed(&coherent, closest);
+    let (incoherent, bounced) = speed(&secondary, closest);
+    let (any, blocked) = speed(&shadow, |ray, t_max| bvh.occluded(ray, t_max, |_, _| false));
+    println!(
+        "{name:10} {:7} triangles, build {build:6.1} ms, {:5.1} MB: {primary:6.2} / {incoherent:6.2} / {any:6.2} Mrays/s \
+         ({seen}, {bounced}, {blocked} hits)",
+        mesh.triangles.len(),
+        bvh.memory_bytes() as f64 * 1e-6
+    );
+}
+
+fn main() {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the first and only pool");
+    let _ = Aabb::EMPTY;
+    let eye = Vec3::new(0.05, 0.1, 0.95);
+    let mut cornell = Mesh { positions: vec![], triangles: vec![] };
+    cornell.cuboid(Vec3::ZERO, Vec3::ONE);
+    cornell.cuboid(Vec3::new(-0.35, -0.4, -0.3), Vec3::new(0.3, 0.6, 0.3));
+    cornell.cuboid(Vec3::new(0.35, -0.7, 0.3), Vec3::new(0.3, 0.3, 0.3));
+    measure("cornell", &cornell, eye);
+    for (name, levels) in [("ico5k", 4), ("ico20k", 5), ("ico82k", 6), ("ico330k", 7)] {
+        let mut mesh = Mesh { positions: vec![], triangles: vec![] };
+        mesh.icosphere(0.5, levels);
+        mesh.cuboid(Vec3::ZERO, Vec3::ONE);
+        measure(name, &mesh, eye);
+    }
+}

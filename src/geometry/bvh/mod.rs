@@ -1,0 +1,303 @@
+//! The bounding volume hierarchy: a tree of eight boxes a node over triangles and over primitives known only by a box
+//! and a closure.
+//!
+//! Built by the binned surface-area heuristic, collapsed to eight children at least cost, traversed eight boxes or eight
+//! triangles at a time [Wald2008], [Ylitie2017]. Nothing leaks: triangles are tested watertight [Woop2013], boxes
+//! conservatively [Ize2013]. Nothing depends on the number of threads, on the instruction set or on the order in which
+//! nodes are visited: of hits at equal distance the primitive that comes first wins.
+
+mod build;
+mod collapse;
+mod node;
+#[cfg(test)]
+mod tests;
+
+use super::triangle::double_area_vector;
+use super::{Aabb, Ray};
+use build::Item;
+use glam::Vec3;
+use node::{Node, Packet, RayLanes, Reference, Target, WIDTH};
+
+/// Boxes grow by this share of the largest coordinate: the rounding of a vertex relative to a ray's origin (12u), so
+/// that a ray that the rounded triangle takes is not lost at its box. Holds for origins up to twice as far out.
+const BOX_GROWTH: f32 = 16.0 * 0.5 * f32::EPSILON;
+
+/// Boxes and stack entries up to this factor beyond the nearest hit are still visited, so that rounding does not decide
+/// between hits at equal distance.
+const TIE_SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
+
+/// Stack sizes: each ray clears its stack, so small trees get small ones. The last holds any tree: at most 7 entries for
+/// each level of [`build::MAX_DEPTH`].
+const SMALL_STACK: usize = 16;
+const MEDIUM_STACK: usize = 64;
+const LARGE_STACK: usize = (WIDTH - 1) * build::MAX_DEPTH as usize;
+
+/// A bounding volume hierarchy. See the [module](self).
+#[derive(Debug, Clone)]
+pub struct Bvh {
+    nodes: Vec<Node>,
+    packets: Vec<Packet>,
+    root: Reference,
+    bounds: Aabb,
+    /// Most entries that a traversal can have on its stack.
+    stack_entries: usize,
+    triangle_count: u32,
+}
+
+/// What was hit, as an index into the arrays given to [`Bvh::build`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Primitive {
+    /// Index of a triangle.
+    Triangle(u32),
+    /// Index of an analytic primitive.
+    Analytic(u32),
+}
+
+/// The nearest hit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BvhHit {
+    /// What was hit.
+    pub primitive: Primitive,
+    /// Distance, in units of the ray's direction.
+    pub t: f32,
+}
+
+/// The best hit so far. Keys number the triangles, then the analytic primitives.
+struct Nearest {
+    t: f32,
+    key: Option<u32>,
+}
+
+impl Nearest {
+    /// Takes a hit that is nearer, or as near and earlier in order.
+    #[inline(always)]
+    fn offer(&mut self, t: f32, key: u32) {
+        if t < self.t || (t == self.t && self.key.is_some_and(|best| key < best)) {
+            self.t = t;
+            self.key = Some(key);
+        }
+    }
+}
+
+/// A stack entry: the entry distance's bits above a reference. Distances are ≥ 0, so integers order as they do.
+#[inline(always)]
+fn stack_entry(t: f32, reference: Reference) -> u64 {
+    u64::from(t.to_bits()) << 32 | u64::from(reference.0)
+}
+
+impl Bvh {
+    /// Builds the tree over triangles (indices into `positions`, f32 coordinates of a scene of about unit size) and over
+    /// the boxes of analytic primitives. Runs in rayon's current pool; the result is the same for any number of threads.
+    ///
+    /// Triangles without area, with an index out of range or a coordinate that is not finite, and empty boxes are left
+    /// out: nothing hits them. At most 2³⁰ triangles and as many analytic primitives; what is beyond is left out as well.
+    pub fn build(positions: &[Vec3], triangles: &[[u32; 3]], analytic: &[Aabb]) -> Self {
+        let mut items = items(positions, triangles, analytic);
+        let bounds = items.iter().fold(Aabb::EMPTY, |bounds, item| bounds.union(item.bounds));
+        let mut bvh = Self {
+            nodes: Vec::new(),
+            packets: Vec::new(),
+            root: Reference::EMPTY,
+            bounds,
+            stack_entries: 0,
+            triangle_count: triangles.len().min(Reference::MAX_INDEX) as u32,
+        };
+        if !items.is_empty() {
+            let tree = build::build(&mut items, 0, 0);
+            let mut emitter = collapse::Emitter::new(&items, positions, triangles);
+            (bvh.root, bvh.stack_entries) = emitter.emit(&tree);
+            (bvh.nodes, bvh.packets) = (emitter.nodes, emitter.packets);
+        }
+        bvh
+    }
+
+    /// The box around everything; empty if there is nothing.
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    /// Heap memory of the tree with its copies of the vertices.
+    pub fn memory_bytes(&self) -> usize {
+        self.nodes.capacity() * size_of::<Node>() + self.packets.capacity() * size_of::<Packet>()
+    }
+
+    /// The nearest hit with 0 < t < `t_max`. Of hits at equal t the first triangle wins, or the first analytic primitive
+    /// where there is no triangle.
+    ///
+    /// `analytic(index, t_max)` gives the nearest distance in (0, `t_max`) at which the ray meets one analytic primitive.
+    #[inline]
+    pub fn closest(&self, ray: &Ray, t_max: f32, analytic: impl FnMut(u32, f32) -> Option<f32>) -> Option<BvhHit> {
+        let nearest = self.dispatch::<false>(ray, t_max, analytic)?;
+        let key = nearest.key?;
+        let primitive = match key.checked_sub(self.triangle_count) {
+            None => Primitive::Triangle(key),
+            Some(index) => Primitive::Analytic(index),
+        };
+        Some(BvhHit { primitive, t: nearest.t })
+    }
+
+    /// Whether anything is hit with 0 < t < `t_max`. `analytic(index, t_max)` tells it of one analytic primitive.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray, t_max: f32, mut analytic: impl FnMut(u32, f32) -> bool) -> bool {
+        let any = self.dispatch::<true>(ray, t_max, |index, t_max| analytic(index, t_max).then_some(0.0));
+        any.is_some_and(|nearest| nearest.key.is_some())
+    }
+
+    #[inline]
+    fn dispatch<const ANY: bool>(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        analytic: impl FnMut(u32, f32) -> Option<f32>,
+    ) -> Option<Nearest> {
+        match self.stack_entries {
+            0..=SMALL_STACK => self.traverse::<SMALL_STACK, ANY>(ray, t_max, analytic),
+            0..=MEDIUM_STACK => self.traverse::<MEDIUM_STACK, ANY>(ray, t_max, analytic),
+            _ => self.traverse::<LARGE_STACK, ANY>(ray, t_max, analytic),
+        }
+    }
+
+    /// The traversal: boxes from near to far, or for `ANY` in the order of the node and only up to the first hit.
+    fn traverse<const STACK: usize, const ANY: bool>(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        mut analytic: impl FnMut(u32, f32) -> Option<f32>,
+    ) -> Option<Nearest> {
+        let lanes = RayLanes::new(ray)?;
+        let mut nearest = Nearest { t: t_max, key: None };
+        let mut limit = t_max;
+        let mut stack = Stack::<STACK> { entries: [0; STACK], len: 0 };
+        let mut current = self.root;
+        loop {
+            match current.target() {
+                Target::Node(index) => {
+                    let node = self.nodes.get(index)?;
+                    let (near, hits) = node.intersect(&lanes, limit);
+                    if hits != 0 {
+                        current = stack.push_children::<ANY>(node, near, hits);
+                        continue;
+                    }
+                }
+                Target::Packet(index) => {
+                    let packet = self.packets.get(index)?;
+                    let (t, mut hits) = packet.intersect(&lanes, nearest.t);
+                    let t = t.to_array();
+                    while hits != 0 {
+                        let lane = hits.trailing_zeros() as usize % WIDTH;
+                        hits &= hits - 1;
+                        nearest.offer(t[lane], packet.triangles[lane]);
+                    }
+                }
+                Target::Analytic(index) => {
+                    // A hit as near as the best so far may still come first in order.
+                    let limit = if nearest.key.is_some() { nearest.t.next_up() } else { nearest.t };
+                    if let Some(t) = analytic(index, limit) {
+                        nearest.offer(t, self.triangle_count + index);
+                    }
+                }
+            }
+            if nearest.key.is_some() {
+                if ANY {
+                    return Some(nearest);
+                }
+                limit = nearest.t * TIE_SLACK;
+            }
+            match stack.pop(limit) {
+                Some(reference) => current = reference,
+                None => return Some(nearest),
+            }
+        }
+    }
+}
+
+/// What is still to visit.
+struct Stack<const SIZE: usize> {
+    entries: [u64; SIZE],
+    len: usize,
+}
+
+impl<const SIZE: usize> Stack<SIZE> {
+    #[inline(always)]
+    fn push(&mut self, entry: u64) {
+        // The size is chosen by the tree's depth, so this never drops anything.
+        if let Some(slot) = self.entries.get_mut(self.len) {
+            *slot = entry;
+            self.len += 1;
+        }
+    }
+
+    /// The next reference no farther than `limit`.
+    #[inline(always)]
+    fn pop(&mut self, limit: f32) -> Option<Reference> {
+        loop {
+            self.len = self.len.checked_sub(1)?;
+            let entry = *self.entries.get(self.len)?;
+            if f32::from_bits((entry >> 32) as u32) <= limit {
+                return Some(Reference(entry as u32));
+            }
+        }
+    }
+
+    /// Pushes all hit children but the nearest, farthest first, and gives the nearest. For `ANY`: in any order.
+    #[inline(always)]
+    fn push_children<const ANY: bool>(&mut self, node: &Node, near: wide::f32x8, mut hits: u32) -> Reference {
+        let first = hits.trailing_zeros() as usize % WIDTH;
+        hits &= hits - 1;
+        if hits == 0 {
+            return node.children[first];
+        }
+        let near = near.to_array();
+        let mut nearest = stack_entry(near[first], node.children[first]);
+        let base = self.len;
+        while hits != 0 {
+            let lane = hits.trailing_zeros() as usize % WIDTH;
+            hits &= hits - 1;
+            let mut entry = stack_entry(near[lane], node.children[lane]);
+            if !ANY {
+                (nearest, entry) = (nearest.min(entry), nearest.max(entry));
+            }
+            self.push(entry);
+            if !ANY {
+                self.sink(base);
+            }
+        }
+        Reference(nearest as u32)
+    }
+
+    /// Moves the last entry down to its place among the entries from `base` on, which descend.
+    #[inline(always)]
+    fn sink(&mut self, base: usize) {
+        let Some(entries) = self.entries.get_mut(base..self.len) else { return };
+        let mut place = entries.len() - 1;
+        while place > 0 && entries[place - 1] < entries[place] {
+            entries.swap(place - 1, place);
+            place -= 1;
+        }
+    }
+}
+
+/// What the tree is built over.
+fn items(positions: &[Vec3], triangles: &[[u32; 3]], analytic: &[Aabb]) -> Vec<Item> {
+    let limit = Reference::MAX_INDEX;
+    let mut items = Vec::with_capacity(triangles.len().min(limit) + analytic.len().min(limit));
+    for (key, indices) in triangles.iter().enumerate().take(limit) {
+        let [Some(&a), Some(&b), Some(&c)] = indices.map(|index| positions.get(index as usize)) else { continue };
+        if a.is_finite() && b.is_finite() && c.is_finite() && double_area_vector(a, b, c) != glam::DVec3::ZERO {
+            items.push(Item { bounds: Aabb::from_points([a, b, c]), key: key as u32, analytic: false });
+        }
+    }
+    let triangle_count = triangles.len().min(limit) as u32;
+    for (index, &bounds) in analytic.iter().enumerate().take(limit) {
+        if bounds.min.is_finite() && bounds.max.is_finite() && bounds.min.cmple(bounds.max).all() {
+            items.push(Item { bounds, key: triangle_count + index as u32, analytic: true });
+        }
+    }
+    let largest = items.iter().map(|item| item.bounds.min.abs().max(item.bounds.max.abs()).max_element());
+    let growth = Vec3::splat(largest.fold(0.0, f32::max) * BOX_GROWTH);
+    for item in &mut items {
+        item.bounds.min -= growth;
+        item.bounds.max += growth;
+    }
+    items
+}

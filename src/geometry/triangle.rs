@@ -1,0 +1,124 @@
+//! One triangle: the watertight intersection with its error bound, the normal, sampling by area.
+
+use super::Ray;
+use crate::math::gamma;
+use glam::{DVec3, Vec3};
+
+/// A ray's frame for the watertight triangle test: the axes are permuted so that the direction's largest component
+/// comes last, and sheared so that the direction becomes that axis [Woop2013].
+///
+/// The sign of an edge function of the sheared, rounded vertices cannot come out wrong (the two products are rounded
+/// monotonically), only 0; edges are inclusive, so triangles that share vertices leave no gap between them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ShearedRay {
+    /// The coordinates that become x, y and z.
+    pub axes: [usize; 3],
+    /// d_x/d_z, d_y/d_z and 1/d_z of the permuted direction.
+    pub shear: Vec3,
+    /// Permuted origin.
+    pub origin: Vec3,
+}
+
+impl ShearedRay {
+    /// The frame of a ray; `None` for a direction without length or with NaN.
+    #[inline]
+    pub fn new(ray: &Ray) -> Option<Self> {
+        let (d, size) = (ray.direction, ray.direction.abs());
+        let z = if size.x > size.y && size.x > size.z {
+            0
+        } else if size.y > size.z {
+            1
+        } else {
+            2
+        };
+        let rate = 1.0 / d[z];
+        if !(size[z] > 0.0 && d.is_finite() && ray.origin.is_finite()) {
+            return None;
+        }
+        let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+        Some(Self {
+            axes: [x, y, z],
+            shear: Vec3::new(d[x] * rate, d[y] * rate, rate),
+            origin: Vec3::new(ray.origin[x], ray.origin[y], ray.origin[z]),
+        })
+    }
+
+    /// A vertex in the frame, relative to the origin; z is not yet divided by d_z.
+    fn apply(&self, vertex: Vec3) -> Vec3 {
+        let z = vertex[self.axes[2]] - self.origin.z;
+        Vec3::new(
+            (vertex[self.axes[0]] - self.origin.x) - self.shear.x * z,
+            (vertex[self.axes[1]] - self.origin.y) - self.shear.y * z,
+            z,
+        )
+    }
+}
+
+/// Where a ray meets a triangle that the traversal has found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TriangleHit {
+    /// Weights of the three vertices, ≥ 0; their sum is 1 up to rounding.
+    pub barycentrics: [f32; 3],
+    /// Σ bᵢ vᵢ, on the triangle up to `error` and independent of the rounding of the distance.
+    pub point: Vec3,
+    /// Bound of the error of each component of `point`: γ₇ Σ|bᵢ vᵢ| [PBRT4, 6.8.4].
+    pub error: Vec3,
+}
+
+impl TriangleHit {
+    /// The hit of a ray with a triangle, from the edge functions of the traversal; `None` where the traversal would
+    /// not hit either.
+    pub fn new(ray: &Ray, vertices: [Vec3; 3]) -> Option<Self> {
+        let frame = ShearedRay::new(ray)?;
+        let [a, b, c] = vertices.map(|vertex| frame.apply(vertex));
+        let (u, v, w) = (c.x * b.y - c.y * b.x, a.x * c.y - a.y * c.x, b.x * a.y - b.y * a.x);
+        let one_side = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+        let determinant = u + v + w;
+        if !one_side || determinant == 0.0 {
+            return None;
+        }
+        let barycentrics = [u / determinant, v / determinant, w / determinant];
+        let mut point = Vec3::ZERO;
+        let mut size = Vec3::ZERO;
+        for (weight, vertex) in barycentrics.into_iter().zip(vertices) {
+            point += vertex * weight;
+            size += (vertex * weight).abs();
+        }
+        Some(Self { barycentrics, point, error: size * gamma(7) })
+    }
+}
+
+/// The cross product of two edges in f64, of twice the triangle's area; it points to the side from which the vertices run
+/// counter-clockwise. Zero for a degenerate triangle.
+pub(super) fn double_area_vector(v0: Vec3, v1: Vec3, v2: Vec3) -> DVec3 {
+    let [v0, v1, v2] = [v0, v1, v2].map(|v| v.as_dvec3());
+    (v1 - v0).cross(v2 - v0)
+}
+
+/// The unit normal on the side from which the vertices run counter-clockwise, computed in f64 and rounded; `None` for a
+/// triangle without area.
+pub fn geometric_normal(v0: Vec3, v1: Vec3, v2: Vec3) -> Option<Vec3> {
+    let cross = double_area_vector(v0, v1, v2);
+    let length = cross.length();
+    // f32 input: the squared length neither overflows nor vanishes in f64 unless it is exactly 0.
+    (length > 0.0).then(|| (cross / length).as_vec3())
+}
+
+/// Area, computed in f64 and rounded.
+pub fn triangle_area(v0: Vec3, v1: Vec3, v2: Vec3) -> f32 {
+    (0.5 * double_area_vector(v0, v1, v2).length()) as f32
+}
+
+/// Barycentrics uniform over a triangle's area from a point of the unit square [0, 1)². The map is continuous and
+/// keeps neighbours together, so a well-spread point set stays so [Heitz2019]. The weights are ≥ 0 and sum to 1 up to
+/// rounding.
+pub fn sample_triangle(u: [f32; 2]) -> [f32; 3] {
+    let (b0, b1) = if u[0] < u[1] {
+        let b0 = 0.5 * u[0];
+        (b0, u[1] - b0)
+    } else {
+        let b1 = 0.5 * u[1];
+        (u[0] - b1, b1)
+    };
+    [b0, b1, (1.0 - b0 - b1).max(0.0)]
+}
