@@ -41,11 +41,9 @@ pub struct Dielectric {
 pub struct DielectricSample {
     /// Direction of travel afterwards.
     pub direction: Vec3,
-    /// Share of the *flux* that this path carries on, divided by the probability of the choice. Radiance is scaled by
-    /// [`radiance_scale`](Self::radiance_scale) besides; importance is not.
+    /// Share of the flux that this path carries on, divided by the probability of the choice. Radiance changes by
+    /// (η_from / η_to)² besides; as that telescopes along a path, it is applied where light is collected.
     pub weight: SampledSpectrum,
-    /// (η_from / η_to)² after a refraction, else 1.
-    pub radiance_scale: SampledSpectrum,
     /// Whether the path crossed.
     pub refracted: bool,
     /// Whether the new direction depends on the wavelength: lanes that shared the ray have to part.
@@ -63,7 +61,7 @@ impl Dielectric {
     ///
     /// With shared lanes a reflection is drawn with q = Σ βₖFₖ / Σ βₖ (`throughput` β), which is the balance heuristic
     /// over the heroes that could have been, so that all lanes keep their own Fₖ / q. A dispersive refraction leaves the
-    /// hero alone, which stands for all eight: the caller multiplies by [`LANES`] when it parts them.
+    /// hero alone, which then stands for all eight: the caller multiplies by [`LANES`] when it parts them.
     pub fn sample<const DISPERSION: bool>(
         &self,
         direction: Vec3,
@@ -98,7 +96,6 @@ impl Dielectric {
                     .direction(d, normal, cos_theta_i, self.from.eta[hero], self.to.eta[hero])
                     .as_vec3(),
                 weight: (SampledSpectrum::ONE - reflectance) * (1.0 / (1.0 - q)),
-                radiance_scale: self.radiance_scale::<DISPERSION>(dispersive, hero),
                 refracted: true,
                 parts_lanes: dispersive,
             },
@@ -106,26 +103,16 @@ impl Dielectric {
             None if u >= q => DielectricSample {
                 direction,
                 weight: SampledSpectrum::ZERO,
-                radiance_scale: SampledSpectrum::ONE,
                 refracted: true,
                 parts_lanes: dispersive,
             },
             _ => DielectricSample {
                 direction: optics::reflect(d, normal).as_vec3(),
                 weight: reflectance * (1.0 / q),
-                radiance_scale: SampledSpectrum::ONE,
                 refracted: false,
                 parts_lanes: false,
             },
         }
-    }
-
-    fn radiance_scale<const DISPERSION: bool>(&self, dispersive: bool, hero: usize) -> SampledSpectrum {
-        let scale = |lane: usize| {
-            let ratio = self.from.eta[lane] / self.to.eta[lane];
-            (ratio * ratio) as f32
-        };
-        if DISPERSION && dispersive { SampledSpectrum::from_fn(scale) } else { SampledSpectrum::splat(scale(hero)) }
     }
 }
 
@@ -186,7 +173,7 @@ mod tests {
             let beta = SampledSpectrum::from_fn(|k| k as f32);
             let a = boundary.sample::<true>(direction, DVec3::Z, Lanes::Shared, 3, beta, u);
             let b = boundary.sample::<false>(direction, DVec3::Z, Lanes::Shared, 3, beta, u);
-            assert_eq!((a.direction, a.weight, a.radiance_scale), (b.direction, b.weight, b.radiance_scale));
+            assert_eq!((a.direction, a.weight), (b.direction, b.weight));
             assert!(!a.parts_lanes);
         }
     }

@@ -95,13 +95,12 @@ pub(super) fn double_area_vector(v0: Vec3, v1: Vec3, v2: Vec3) -> DVec3 {
     (v1 - v0).cross(v2 - v0)
 }
 
-/// The unit normal on the side from which the vertices run counter-clockwise, computed in f64 and rounded; `None` for a
-/// triangle without area.
-pub fn geometric_normal(v0: Vec3, v1: Vec3, v2: Vec3) -> Option<Vec3> {
+/// The unit normal on the side from which the vertices run counter-clockwise; `None` for a triangle without area.
+pub fn geometric_normal(v0: Vec3, v1: Vec3, v2: Vec3) -> Option<DVec3> {
     let cross = double_area_vector(v0, v1, v2);
     let length = cross.length();
     // f32 input: the squared length neither overflows nor vanishes in f64 unless it is exactly 0.
-    (length > 0.0).then(|| (cross / length).as_vec3())
+    (length > 0.0).then(|| cross / length)
 }
 
 /// Area, computed in f64 and rounded.

@@ -1,5 +1,16 @@
 //! Discrete distributions drawn in constant time.
 
+/// What an [`AliasTable`] drew.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Draw {
+    /// The index.
+    pub index: usize,
+    /// Its probability.
+    pub probability: f32,
+    /// What is left of the random number, in [0, 1) and as good as new.
+    pub rest: f32,
+}
+
 /// Draws an index in proportion to weights [Vose1991].
 #[derive(Debug, Clone, Default)]
 pub struct AliasTable {
@@ -35,8 +46,8 @@ impl AliasTable {
         Self { columns, probabilities: weights.iter().map(|w| (w / total) as f32).collect() }
     }
 
-    /// The index for `u` in [0, 1) and its probability; `None` if nothing can be drawn.
-    pub fn sample(&self, u: f32) -> Option<(usize, f32)> {
+    /// Draws with `u` in [0, 1); `None` if nothing can be drawn.
+    pub fn sample(&self, u: f32) -> Option<Draw> {
         let n = self.columns.len();
         if n == 0 {
             return None;
@@ -44,8 +55,9 @@ impl AliasTable {
         let scaled = u * n as f32;
         let column = (scaled as usize).min(n - 1);
         let (own, alias) = self.columns[column];
-        let index = if scaled - (column as f32) < own { column } else { alias as usize };
-        Some((index, self.probabilities[index]))
+        let x = scaled - column as f32;
+        let (index, rest) = if x < own { (column, x / own) } else { (alias as usize, (x - own) / (1.0 - own)) };
+        Some(Draw { index, probability: self.probabilities[index], rest: rest.min(1.0 - f32::EPSILON * 0.5) })
     }
 
     /// The probability of an index; 0 beyond the table.
@@ -63,13 +75,16 @@ mod tests {
         let weights = [0.0, 3.0, 1.0, 0.5, 5.5, 0.0];
         let table = AliasTable::new(&weights);
         let n = 1 << 16;
-        let mut counts = [0u32; 6];
+        let (mut counts, mut rest) = ([0u32; 6], [0.0; 6]);
         for i in 0..n {
-            let (index, probability) = table.sample((i as f32 + 0.5) / n as f32).unwrap();
-            assert_eq!(probability, table.probability(index));
-            counts[index] += 1;
+            let draw = table.sample((i as f32 + 0.5) / n as f32).unwrap();
+            assert_eq!(draw.probability, table.probability(draw.index));
+            assert!((0.0..1.0).contains(&draw.rest));
+            rest[draw.index] += f64::from(draw.rest);
+            counts[draw.index] += 1;
         }
-        for (count, weight) in counts.iter().zip(weights) {
+        for ((count, weight), rest) in counts.iter().zip(weights).zip(rest) {
+            assert!(weight == 0.0 || (rest / f64::from(*count) - 0.5).abs() < 1e-2);
             assert!((f64::from(*count) / f64::from(n) - weight / 10.0).abs() < 1e-3);
         }
     }

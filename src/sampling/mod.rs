@@ -7,7 +7,7 @@ mod piecewise;
 mod sobol;
 mod warp;
 
-pub use alias::AliasTable;
+pub use alias::{AliasTable, Draw};
 pub use mis::balance_heuristic;
 pub use piecewise::PiecewiseLinearDensity;
 pub use sobol::{DIMENSIONS, Sobol, mix};

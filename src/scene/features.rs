@@ -1,0 +1,15 @@
+//! What a scene needs. Derived from the compiled scene, never asked of the user.
+
+/// Mechanisms that a scene can do without. Each picks a kernel in which its absence costs nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SceneFeatures {
+    /// Some medium's index depends on the wavelength: lanes can part.
+    pub dispersion: bool,
+    /// There are transparent volumes: a path knows what it is inside of.
+    pub interiors: bool,
+}
+
+impl SceneFeatures {
+    /// Everything, needed or not. A scene rendered so gives the same bits.
+    pub const ALL: Self = Self { dispersion: true, interiors: true };
+}

@@ -1,0 +1,60 @@
+//! What surfaces and volumes are made of, by index into the scene's tables.
+
+use crate::optics::ior::IndexOfRefraction;
+
+/// Index into [`Scene::spectra`](super::Scene::spectra).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct SpectrumId(pub u32);
+
+/// Index into [`Scene::media`](super::Scene::media).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct MediumId(pub u32);
+
+/// A surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Material {
+    /// Reflects nothing.
+    Black,
+    /// Lambertian.
+    Diffuse {
+        /// Reflectance.
+        reflectance: SpectrumId,
+    },
+    /// Perfect mirror.
+    Mirror {
+        /// Reflectance.
+        reflectance: SpectrumId,
+    },
+    /// Smooth metal.
+    Conductor {
+        /// Real part of the index.
+        eta: SpectrumId,
+        /// Imaginary part.
+        k: SpectrumId,
+    },
+    /// The boundary of a transparent volume.
+    Dielectric {
+        /// What is inside.
+        medium: MediumId,
+    },
+}
+
+impl Material {
+    /// Whether light is scattered into single directions only.
+    pub fn is_specular(&self) -> bool {
+        matches!(self, Self::Mirror { .. } | Self::Conductor { .. } | Self::Dielectric { .. })
+    }
+}
+
+/// A transparent volume.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Medium {
+    /// Relative to air.
+    pub ior: IndexOfRefraction,
+    /// Whether the index depends on the wavelength.
+    pub dispersive: bool,
+    /// Absorption coefficient per unit of the compiled scene's length.
+    pub absorption: Option<SpectrumId>,
+    /// Where volumes overlap, the highest priority is what is there.
+    pub priority: i32,
+}
