@@ -28,7 +28,7 @@ const fn table(what: &'static str, doc: &'static str, fields: &'static [Field]) 
 pub static SCENE: Table = table("a scene", "A scene for abbe, version 1.", &SCENE_FIELDS);
 static SCENE_FIELDS: [Field; 11] = [
     optional("$schema", Kind::Text, "Where the JSON Schema of this format is, for editors."),
-    default("abbe", Kind::Integer(Range::COORDINATE), "1", "Version of the format: 1."),
+    default("abbe", Kind::Integer(Range::from_to(VERSION as f64, VERSION as f64)), "1", "Version of the format: 1."),
     required("camera", Kind::Tagged(&CAMERA), "The camera."),
     required("film", Kind::Object(&FILM), "Picture size and reconstruction filter."),
     default("render", Kind::Object(&RENDER), "{}", "Sampling and integrator."),
