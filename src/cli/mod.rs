@@ -1,6 +1,7 @@
 //! Command line: one file a subcommand; the only place that prints, shows progress or exits.
 
 pub mod glass;
+pub mod scene;
 
 use std::process::ExitCode;
 
