@@ -1,1 +1,3 @@
-//! To be written.
+//! Files in and out: what other programs wrote, read with limits and line numbers.
+
+pub mod spectrum_file;
