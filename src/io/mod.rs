@@ -2,3 +2,6 @@
 
 pub mod catalogue;
 pub mod refractive_index_info;
+//! Files in and out: what other programs wrote, read with limits and line numbers.
+
+pub mod spectrum_file;
