@@ -6,6 +6,7 @@ mod disk;
 pub mod implicit;
 mod lens;
 mod ray;
+pub mod solids;
 mod sphere;
 
 pub use aabb::Aabb;
@@ -14,4 +15,5 @@ pub use disk::Disk;
 pub use implicit::{IMPLICIT_KINDS, Implicit, ImplicitKind};
 pub use lens::Lens;
 pub use ray::{Ray, offset_origin};
+pub use solids::{BrilliantCut, TriangleSoup, brilliant, prism};
 pub use sphere::Sphere;
