@@ -128,7 +128,10 @@ impl Lens {
         }
         let mut rest = solid;
         for cut in cuts.into_iter().flatten() {
-            let before = Span { t: [rest.t[0], rest.t[1].min(cut.t[0])], face: [rest.face[0], if cut.t[0] < rest.t[1] { cut.face[0] } else { rest.face[1] }] };
+            let before = Span {
+                t: [rest.t[0], rest.t[1].min(cut.t[0])],
+                face: [rest.face[0], if cut.t[0] < rest.t[1] { cut.face[0] } else { rest.face[1] }],
+            };
             if let Some(hit) = before.first_end(t_max) {
                 return Some(hit);
             }
@@ -181,7 +184,11 @@ impl Face {
         if self.radius.is_infinite() {
             return half_space(oz - self.vertex, dz, tag);
         }
-        let ball = ball_span(DVec3::new(o.x, o.y, oz - self.center()), d * DVec3::new(1.0, 1.0, self.inward), self.radius.abs());
+        let ball = ball_span(
+            DVec3::new(o.x, o.y, oz - self.center()),
+            d * DVec3::new(1.0, 1.0, self.inward),
+            self.radius.abs(),
+        );
         let ball = ball.map(|(t0, t1)| Span { t: [t0, t1], face: [tag; 2] }.intersection(cylinder));
         let side = self.radius.signum();
         let beyond = half_space((oz - self.center()) * side, dz * side, tag).map(|span| span.intersection(cylinder));
@@ -249,4 +256,85 @@ fn sag(radius: f64, rim: f64) -> f64 {
     }
     let height = ((radius.abs() - rim) * (radius.abs() + rim)).sqrt();
     rim * rim / (radius.abs() + height) * radius.signum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::analytic::tests::Rng;
+    use super::*;
+
+    const FLAT: f64 = f64::INFINITY;
+
+    /// Where a ray inside the aperture crosses a face, straight from the sphere's equation (convex or concave).
+    fn face_by_hand(o: DVec3, d: DVec3, vertex: f64, center: f64) -> f64 {
+        let radius = (vertex - center).abs();
+        let oc = o - DVec3::new(0.0, 0.0, center);
+        let (a, b, c) = (d.dot(d), oc.dot(d), oc.dot(oc) - radius * radius);
+        let root = (b * b - a * c).sqrt();
+        let z = |t: f64| o.z + t * d.z;
+        let (t0, t1) = ((-b - root) / a, (-b + root) / a);
+        if (z(t0) - vertex).abs() < (z(t1) - vertex).abs() { t0 } else { t1 }
+    }
+
+    #[test]
+    fn agrees_with_tracing_two_spheres() {
+        let mut rng = Rng::new(3);
+        for (radii, thickness) in [([1.0, 1.5], 0.4), ([-1.0, -2.0], 0.1), ([0.7, -1.1], 0.2), ([-0.9, 0.6], 0.3)] {
+            let lens = Lens::new(radii, thickness, 1.0).unwrap();
+            let (v0, v1) = (-0.5 * thickness, 0.5 * thickness);
+            for _ in 0..10_000 {
+                let from = DVec3::new(rng.signed() * 0.3, rng.signed() * 0.3, -2.0);
+                let to = DVec3::new(rng.signed() * 0.3, rng.signed() * 0.3, 2.0);
+                let d = (to - from).normalize();
+                let first = lens.intersect(from, d, 10.0).unwrap();
+                let (t0, t1) = (face_by_hand(from, d, v0, v0 + radii[0]), face_by_hand(from, d, v1, v1 - radii[1]));
+                assert!((first.t - t0).abs() < 1e-12 && first.face == 0, "{} {t0}", first.t);
+                assert!(first.normal.dot(d) < 0.0);
+                let second = lens.intersect(from + d * (0.5 * (t0 + t1)), d, 10.0).unwrap();
+                assert!((second.t - 0.5 * (t1 - t0)).abs() < 1e-12 && second.face == 1);
+                assert!(second.normal.dot(d) > 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn special_shapes_have_their_surfaces() {
+        let hit = |lens: &Lens, o: DVec3, d: DVec3| lens.intersect(o, d, 100.0).map(|hit| (hit.t, hit.face));
+        let disc = Lens::new([FLAT, FLAT], 0.5, 2.0).unwrap();
+        assert_eq!(hit(&disc, DVec3::new(0.5, 0.0, -3.0), DVec3::Z), Some((2.75, 0)));
+        assert_eq!(hit(&disc, DVec3::new(0.5, 0.0, 3.0), -DVec3::Z), Some((2.75, 1)));
+        assert_eq!(hit(&disc, DVec3::new(-3.0, 0.0, 0.1), DVec3::X), Some((2.0, CYLINDER)));
+        assert_eq!(hit(&disc, DVec3::new(-3.0, 0.0, 0.3), DVec3::X), None);
+        // A ball, and a rod longer than its round ends: the far half of a face's sphere cuts nothing.
+        let ball = Lens::new([1.0, 1.0], 2.0, 2.0).unwrap();
+        assert_eq!(hit(&ball, DVec3::new(0.0, 0.0, -3.0), DVec3::Z), Some((2.0, 0)));
+        let rod = Lens::new([1.0, 1.0], 10.0, 2.0).unwrap();
+        assert_eq!(hit(&rod, DVec3::new(-3.0, 0.0, 0.0), DVec3::X), Some((2.0, CYLINDER)));
+        assert_eq!(hit(&rod, DVec3::ZERO, DVec3::Z), Some((5.0, 1)));
+        assert!(rod.contains(DVec3::new(0.0, 0.0, 4.9)) && !rod.contains(DVec3::new(0.9, 0.0, 4.9)));
+        // Through the hollow of a concave face near the rim, and across the hollow to the glass again.
+        let concave = Lens::new([-1.0, -1.0], 0.1, 1.6).unwrap();
+        let z = -0.4;
+        let (t, face) = hit(&concave, DVec3::new(-3.0, 0.0, z), DVec3::X).unwrap();
+        assert!((t - 2.2).abs() < 1e-15 && face == CYLINDER);
+        let inner = 1.0 - (0.05 + 1.0 + z) * (0.05 + 1.0 + z);
+        let (t, face) = hit(&concave, DVec3::new(-0.79, 0.0, z), DVec3::X).unwrap();
+        assert!((t - (0.79 - inner.sqrt())).abs() < 1e-12 && face == 0);
+        let (t, face) = hit(&concave, DVec3::new(0.0, 0.0, z), DVec3::X).unwrap();
+        assert!((t - inner.sqrt()).abs() < 1e-12 && face == 0);
+    }
+
+    #[test]
+    fn impossible_lenses_are_errors() {
+        let kind = |radii, thickness, diameter| Lens::new(radii, thickness, diameter).unwrap_err().kind;
+        assert_eq!(kind([0.4, 1.0], 0.5, 1.0), ErrorKind::OutOfRange);
+        assert_eq!(kind([0.0, 1.0], 0.5, 1.0), ErrorKind::OutOfRange);
+        assert_eq!(kind([f64::NAN, 1.0], 0.5, 1.0), ErrorKind::OutOfRange);
+        assert_eq!(kind([-1.0, -1.0], 0.0, 1.0), ErrorKind::OutOfRange);
+        assert_eq!(kind([1.0, 1.0], 0.1, -1.0), ErrorKind::OutOfRange);
+        assert_eq!(kind([1.0, 1.0], 0.1, 1.0), ErrorKind::Degenerate);
+        assert_eq!(kind([1.0, -2.0], 0.01, 1.0), ErrorKind::Degenerate);
+        let message = Lens::new([1.0, 1.0], 0.1, 1.0).unwrap_err().message;
+        assert!(message.contains("0.267"), "{message}");
+    }
 }

@@ -8,6 +8,7 @@ mod frame;
 pub mod implicit;
 mod lens;
 mod ray;
+pub mod solids;
 mod sphere;
 mod triangle;
 
@@ -19,5 +20,6 @@ pub use frame::{Frame, orthonormal_basis};
 pub use implicit::{IMPLICIT_KINDS, Implicit, ImplicitKind};
 pub use lens::Lens;
 pub use ray::{Ray, offset_origin};
+pub use solids::{BrilliantCut, TriangleSoup, brilliant, prism};
 pub use sphere::Sphere;
 pub use triangle::{TriangleHit, geometric_normal, sample_triangle, triangle_area};

@@ -157,10 +157,7 @@ impl Number for Interval {
     fn smooth_min(self, other: Self, width: f64) -> Self {
         let (lo, hi) = (self.lo.smooth_min(other.lo, width), self.hi.smooth_min(other.hi, width));
         let slack = |x: f64, y: f64| LIBM * (x.abs().min(y.abs()) + width) + TINY;
-        Self::new(
-            lo - slack(self.lo, other.lo) - LIBM * lo.abs(),
-            hi + slack(self.hi, other.hi) + LIBM * hi.abs(),
-        )
+        Self::new(lo - slack(self.lo, other.lo) - LIBM * lo.abs(), hi + slack(self.hi, other.hi) + LIBM * hi.abs())
     }
 }
 

@@ -196,10 +196,7 @@ impl<T: Differentiable> Number for Dual<T> {
 
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos();
-        (
-            Self { value: sin, slope: cos * self.slope },
-            Self { value: cos, slope: (sin * self.slope).scale(-1.0) },
-        )
+        (Self { value: sin, slope: cos * self.slope }, Self { value: cos, slope: (sin * self.slope).scale(-1.0) })
     }
 
     fn norm(self, other: Self, p: f64) -> Self {
@@ -210,10 +207,7 @@ impl<T: Differentiable> Number for Dual<T> {
 
     fn smooth_min(self, other: Self, width: f64) -> Self {
         let weight = self.value.smooth_min_slope(other.value, width);
-        Self {
-            value: self.value.smooth_min(other.value, width),
-            slope: Self::blend(self.slope, other.slope, weight),
-        }
+        Self { value: self.value.smooth_min(other.value, width), slope: Self::blend(self.slope, other.slope, weight) }
     }
 }
 

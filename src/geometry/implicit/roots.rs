@@ -168,4 +168,3 @@ pub(super) fn distance_bound<F: Field>(field: &F, p: DVec3, gradient_length: f64
 pub(super) fn value_at<F: Field>(field: &F, p: DVec3) -> f64 {
     field.value([p.x, p.y, p.z])
 }
-
