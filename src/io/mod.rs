@@ -1,7 +1,5 @@
-//! Reading and writing files.
+//! Files in and out: what other programs wrote, read with limits and places in the messages.
 
 pub mod catalogue;
 pub mod refractive_index_info;
-//! Files in and out: what other programs wrote, read with limits and line numbers.
-
 pub mod spectrum_file;

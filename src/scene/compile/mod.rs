@@ -1,0 +1,189 @@
+//! SceneDescription → [`Scene`]: names become indices, spectra become tables, shapes become primitives in one tree, and
+//! all lengths and radiances are brought to about unit size by powers of two, so that no scale is special.
+
+mod geometry;
+mod lights;
+mod materials;
+mod normalize;
+mod spectra;
+
+use super::description::{FilterKind, FovAxis, Integrator as IntegratorName, SceneDescription, Tonemap};
+use super::{Camera, Scene, SceneFeatures};
+use crate::film::Filter;
+use crate::geometry::Bvh;
+use crate::math;
+use crate::{Error, ErrorKind, Result};
+use geometry::Geometry;
+use glam::DVec3;
+use materials::Materials;
+use normalize::Normalization;
+use spectra::Spectra;
+
+/// What a scene file asks for, ready to render.
+#[derive(Debug)]
+pub struct Compiled {
+    /// The scene.
+    pub scene: Scene,
+    /// How to sample it.
+    pub render: RenderSettings,
+    /// What to record it on.
+    pub film: FilmSettings,
+    /// How to develop it.
+    pub develop: DevelopSettings,
+    /// What deserves a look, one line each.
+    pub warnings: Vec<String>,
+}
+
+/// How to sample.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RenderSettings {
+    /// Camera paths per pixel.
+    pub samples_per_pixel: u64,
+    /// Largest number of scattering events on a path.
+    pub max_depth: u32,
+    /// Seed of all sequences.
+    pub seed: u64,
+    /// Technique.
+    pub integrator: Integrator,
+}
+
+/// Light transport techniques that there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Integrator {
+    /// Camera paths, and light paths for the caustics of lights that camera paths hardly find.
+    Auto,
+    /// Camera paths alone.
+    Path,
+    /// Light paths alone.
+    Light,
+}
+
+/// Size of the picture and how samples belong to pixels.
+#[derive(Debug, Clone)]
+pub struct FilmSettings {
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Reconstruction filter.
+    pub filter: Filter,
+}
+
+/// How to develop a film for a PNG.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DevelopSettings {
+    /// Stops; `None` is automatic.
+    pub exposure_ev: Option<f64>,
+    /// Operator.
+    pub tonemap: Tonemap,
+}
+
+/// Compiles a description. Reads the files it names.
+///
+/// # Errors
+/// Whatever can be wrong with a scene beyond its syntax, with the scene's file and the JSON path of the place.
+pub fn compile(description: &SceneDescription) -> Result<Compiled> {
+    compile_parts(description).map_err(|error| error.in_file(&description.file))
+}
+
+fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
+    let integrator = integrator(description)?;
+    let mut warnings = Vec::new();
+    let placed = geometry::place(description, &mut warnings)?;
+    let normalization = Normalization::of(description, &placed);
+    let mut spectra = Spectra::new(description);
+    let materials = Materials::compile(description, &mut spectra, &normalization, &mut warnings)?;
+    let geometry = Geometry::compile(description, placed, &normalization, &materials)?;
+    let bvh = Bvh::build(&geometry.positions, &geometry.triangles, &geometry.analytic_bounds());
+    let lights = lights::compile(description, &geometry, &mut spectra, &normalization, integrator, &mut warnings)?;
+    let features = SceneFeatures {
+        dispersion: materials.media.iter().any(|m| m.dispersive),
+        interiors: !materials.media.is_empty(),
+    };
+    let has_specular = geometry.objects.iter().any(|o| o.material.is_specular());
+    let scene = Scene {
+        bvh,
+        positions: geometry.positions,
+        triangles: geometry.triangles,
+        normals: geometry.normals,
+        triangle_objects: geometry.triangle_objects,
+        analytic: geometry.analytic,
+        analytic_objects: geometry.analytic_objects,
+        objects: geometry.objects,
+        spectra: spectra.into_tables(),
+        media: materials.media,
+        light_table: lights.sampled,
+        caustic_table: lights.caustic,
+        emission_table: lights.emitting,
+        infinite_lights: lights.infinite,
+        lights: lights.lights,
+        camera: camera(description, &normalization)?,
+        wavelengths: lights.wavelengths,
+        features,
+        has_specular,
+        radius: normalization.radius,
+        meters_per_unit: normalization.meters_per_unit,
+        radiance_scale: lights.radiance_scale,
+    };
+    let film = &description.film;
+    let filter = match film.filter {
+        FilterKind::Box => Filter::boxed(film.filter_radius),
+        FilterKind::Gaussian => Filter::gaussian(film.filter_radius),
+        FilterKind::BlackmanHarris => Filter::blackman_harris(film.filter_radius),
+    };
+    Ok(Compiled {
+        scene,
+        render: RenderSettings {
+            samples_per_pixel: description.render.samples_per_pixel,
+            max_depth: description.render.max_depth,
+            seed: description.render.seed,
+            integrator,
+        },
+        film: FilmSettings { width: film.width, height: film.height, filter },
+        develop: DevelopSettings {
+            exposure_ev: description.develop.exposure_ev,
+            tonemap: description.develop.tonemap,
+        },
+        warnings,
+    })
+}
+
+fn integrator(description: &SceneDescription) -> Result<Integrator> {
+    let not_yet = |name: &str| {
+        let message = format!("the integrator \"{name}\" is not there yet; expected \"auto\", \"path\" or \"light\"");
+        Err(Error::new(ErrorKind::Unsupported, message).at("render.integrator"))
+    };
+    match description.render.integrator {
+        IntegratorName::Auto => Ok(Integrator::Auto),
+        IntegratorName::Path => Ok(Integrator::Path),
+        IntegratorName::Light => Ok(Integrator::Light),
+        IntegratorName::Merge => not_yet("merge"),
+        IntegratorName::Hero => not_yet("hero"),
+    }
+}
+
+fn camera(description: &SceneDescription, normalization: &Normalization) -> Result<Camera> {
+    let c = &description.camera;
+    let (width, height) = (f64::from(description.film.width), f64::from(description.film.height));
+    let forward = (DVec3::from(c.to) - DVec3::from(c.from)).normalize();
+    let right = forward.cross(DVec3::from(c.up)).normalize();
+    if !(forward.is_finite() && right.is_finite()) {
+        let message = "the view direction or the direction up vanishes; expected from ≠ to, and up not along the view";
+        return Err(Error::new(ErrorKind::Degenerate, message).at(c.at.clone()));
+    }
+    let half = math::tan(0.5 * c.fov_degrees.to_radians());
+    let (half_x, half_y) = match c.fov_axis {
+        FovAxis::X => (half, half * height / width),
+        FovAxis::Y => (half * width / height, half),
+    };
+    Ok(Camera {
+        position: normalization.point(DVec3::from(c.from)).as_vec3(),
+        right: right.as_vec3(),
+        up: right.cross(forward).as_vec3(),
+        forward: forward.as_vec3(),
+        half_extent: [half_x as f32, half_y as f32],
+        size: [description.film.width, description.film.height],
+        lens_radius: normalization.length(c.aperture_radius) as f32,
+        focus_distance: normalization.length(c.focus_distance) as f32,
+    })
+}
