@@ -1,1 +1,5 @@
-//! To be written.
+//! Files: reading and writing what the other modules compute with.
+
+pub mod mesh;
+mod obj;
+mod ply;
