@@ -206,7 +206,7 @@ mod tests {
         let (good, bad) = (file("good.json", GOOD), file("bad.json", "{}"));
         let (out, err, error) = scene(&["check", &bad, &good, "/no/such/scene.json"]);
         assert_eq!(out, format!("{good}: ok: 0 objects, 0 materials, 0 lights, 2 named spectra\n"));
-        assert!(err.starts_with(&format!("{bad}: missing key `camera`")), "{err}");
+        assert!(err.contains(&format!("\n{bad}: missing key `camera`")), "{err}");
         assert!(err.contains("warning:") && err.contains("spectra.b: nothing uses"), "{err}");
         assert_eq!(error.unwrap().kind, ErrorKind::FileNotFound);
 

@@ -121,3 +121,68 @@ pub fn sample_triangle(u: [f32; 2]) -> [f32; 3] {
     };
     [b0, b1, (1.0 - b0 - b1).max(0.0)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit(state: &mut u64) -> f32 {
+        *state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (*state >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    fn point(state: &mut u64) -> Vec3 {
+        Vec3::new(unit(state), unit(state), unit(state)) * 2.0 - 1.0
+    }
+
+    #[test]
+    fn hit_points_are_within_their_bound_of_the_plane() {
+        let mut state = 1;
+        let mut hits = 0;
+        let mut worst: f64 = 0.0;
+        for _ in 0..200_000 {
+            let [a, b, c] = [0; 3].map(|_| point(&mut state));
+            let ray = Ray { origin: point(&mut state) * 2.0, direction: point(&mut state).normalize() };
+            let Some(hit) = TriangleHit::new(&ray, [a, b, c]) else { continue };
+            hits += 1;
+            assert!(hit.barycentrics.iter().all(|&weight| weight >= 0.0));
+            let sum: f32 = hit.barycentrics.iter().sum();
+            assert!((sum - 1.0).abs() <= 3.0 * f32::EPSILON, "{sum}");
+            let normal = double_area_vector(a, b, c);
+            let distance = (hit.point.as_dvec3() - a.as_dvec3()).dot(normal).abs();
+            worst = worst.max(distance / normal.abs().dot(hit.error.as_dvec3()));
+        }
+        assert!(hits > 2_000, "{hits}");
+        assert!(worst < 1.0 && worst > 0.05, "largest share of the bound: {worst}");
+    }
+
+    #[test]
+    fn normals_point_to_the_counter_clockwise_side() {
+        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X, Vec3::Y), Some(Vec3::Z));
+        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::Y, Vec3::X), Some(-Vec3::Z));
+        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X, Vec3::X * 2.0), None);
+        let tiny = 1e-30;
+        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X * tiny, Vec3::Y * tiny), Some(Vec3::Z));
+        assert_eq!(triangle_area(Vec3::ZERO, Vec3::X * 2.0, Vec3::Y * 3.0), 3.0);
+    }
+
+    #[test]
+    fn samples_are_uniform_over_the_area() {
+        // The regions bᵢ > ½ and the middle have a quarter of the area each.
+        let n = 512;
+        let mut counts = [0; 4];
+        for i in 0..n * n {
+            let u = [(i % n) as f32 + 0.5, (i / n) as f32 + 0.5].map(|x| x / n as f32);
+            let weights = sample_triangle(u);
+            assert!(weights.iter().all(|&weight| weight >= 0.0));
+            assert!((weights.iter().sum::<f32>() - 1.0).abs() <= f32::EPSILON);
+            counts[weights.iter().position(|&weight| weight > 0.5).unwrap_or(3)] += 1;
+        }
+        for count in counts {
+            let share = f64::from(count) / f64::from(n * n);
+            assert!((share - 0.25).abs() < 0.003, "{counts:?}");
+        }
+        let last = 1.0 - f32::EPSILON * 0.5;
+        assert!(sample_triangle([last, last]).iter().all(|&weight| weight >= 0.0));
+    }
+}

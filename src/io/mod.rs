@@ -1,5 +1,8 @@
 //! Files in and out: what other programs wrote, read with limits and places in the messages.
 
 pub mod catalogue;
+pub mod mesh;
+mod obj;
+mod ply;
 pub mod refractive_index_info;
 pub mod spectrum_file;

@@ -84,7 +84,13 @@ fn split(items: &mut [Item], depth: u32) -> usize {
 fn halve(items: &mut [Item]) -> usize {
     let centers = center_bounds(items);
     let size = centers.max - centers.min;
-    let axis = if size.x >= size.y && size.x >= size.z { 0 } else if size.y >= size.z { 1 } else { 2 };
+    let axis = if size.x >= size.y && size.x >= size.z {
+        0
+    } else if size.y >= size.z {
+        1
+    } else {
+        2
+    };
     let middle = items.len() / 2;
     items.select_nth_unstable_by(middle, |a, b| a.place(axis).total_cmp(&b.place(axis)).then(a.key.cmp(&b.key)));
     middle

@@ -145,7 +145,8 @@ impl Node {
     /// The box of one child.
     #[cfg(test)]
     pub fn bounds(&self, lane: usize) -> Aabb {
-        let corner = |side: usize| Vec3::from_array([0, 1, 2].map(|axis: usize| self.planes[axis][side].to_array()[lane]));
+        let corner =
+            |side: usize| Vec3::from_array([0, 1, 2].map(|axis: usize| self.planes[axis][side].to_array()[lane]));
         Aabb { min: corner(0), max: corner(1) }
     }
 }
