@@ -204,7 +204,12 @@ fn plain_text(html: &str) -> String {
         text.push_str(before);
         // A tag begins with a letter or a slash; "<" in front of anything else is itself.
         match behind.split_once('>') {
-            Some((tag, after)) if tag.starts_with(|c: char| c.is_ascii_alphabetic() || c == '/') => rest = after,
+            Some((tag, after)) if tag.starts_with(|c: char| c.is_ascii_alphabetic() || c == '/') => {
+                if tag.starts_with("br") {
+                    text.push(' ');
+                }
+                rest = after;
+            }
             _ => {
                 text.push('<');
                 rest = behind;

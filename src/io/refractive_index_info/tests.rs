@@ -1,7 +1,7 @@
 use super::*;
 use proptest::prelude::*;
 
-const WATER: &str = "# comment\nREFERENCES: |\n    A. Author.\n    <i>J. Opt.</i> <b>1</b>, 2 < 3\nDATA:\n  - type: formula 2\n    wavelength_range: 0.4 0.8\n    coefficients: 0 0.5 0.01\n  - type: tabulated k\n    data: |\n        0.4 1e-7\n        0.8 2e-7\nPROPERTIES:\n    nd: 1.2\n";
+const WATER: &str = "# comment\nREFERENCES: |\n    A. Author.\n    <i>J. Opt.</i><br><b>1</b>, 2 < 3\nDATA:\n  - type: formula 2\n    wavelength_range: 0.4 0.8\n    coefficients: 0 0.5 0.01\n  - type: tabulated k\n    data: |\n        0.4 1e-7\n        0.8 2e-7\nPROPERTIES:\n    nd: 1.2\n";
 
 #[test]
 fn a_formula_with_a_table_of_k() {
