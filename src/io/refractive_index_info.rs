@@ -125,10 +125,7 @@ fn read_block(block: &Spanned<Block>, i: usize) -> Result<(Option<IndexOfRefract
         }
         (Some("tabulated"), Some(columns @ ("n" | "k" | "nk")), None) => {
             let data = required(&block.value.data, "data")?;
-            let tables = read_table(&data.value, columns.len()).map_err(|e| {
-                let inside = std::mem::take(&mut e.clone().place);
-                Error { place: place(line_of(&data), &format!("{}{inside}", at("data"))), ..e }
-            })?;
+            let tables = read_table(&data, columns.len(), &at("data"))?;
             let mut tables = tables.into_iter();
             let n = if columns.starts_with('n') { tables.next().map(IndexOfRefraction::Table) } else { None };
             Ok((n, tables.next()))
@@ -160,31 +157,34 @@ fn read_number(word: &str) -> Result<f64> {
     }
 }
 
-/// A table of wavelengths (µm) and one or two more columns: one table for each of these. The place of an error is
-/// `, row 7` behind the key.
-fn read_table(text: &str, columns: usize) -> Result<Vec<Table>> {
+/// A table of wavelengths (µm) and one or two more columns: one table for each of these.
+fn read_table(data: &Spanned<String>, columns: usize, key: &str) -> Result<Vec<Table>> {
     let mut rows: Vec<[f64; 3]> = Vec::new();
-    for (i, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
-        let at_row = |e: Error| e.at(format!(", row {}", i + 1));
-        let numbers = read_numbers(line).map_err(at_row)?;
-        if numbers.len() != columns + 1 {
-            let message = format!(
-                "found {} numbers, expected {}: the wavelength in µm and {columns} more",
-                numbers.len(),
-                columns + 1
-            );
-            return Err(at_row(Error::new(ErrorKind::FileFormat, message)));
-        }
-        if numbers[0] <= 0.0 {
-            let message = format!("found the wavelength {} µm, expected more than 0", numbers[0]);
-            return Err(at_row(Error::new(ErrorKind::OutOfRange, message)));
-        }
-        rows.push([nm_from_um(numbers[0]), numbers[1], numbers[columns]]);
+    for (i, line) in data.value.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
+        // The place of a block of text is its first line.
+        let at_row = |e: Error| e.at(place(line_of(data) + i as u64, &format!("{key}, row {}", i + 1)));
+        rows.push(read_row(line, columns).map_err(at_row)?);
     }
     rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let rows: Vec<[f64; 3]> = rows.chunk_by(|a, b| a[0] == b[0]).map(mean_row).collect();
     let column = |j: usize| rows.iter().map(|row| row[j]).collect::<Vec<f64>>();
-    (1..=columns).map(|j| Table::new(column(0), column(j))).collect()
+    let tables: Result<_> = (1..=columns).map(|j| Table::new(column(0), column(j))).collect();
+    tables.map_err(|e| e.at(place(line_of(data), key)))
+}
+
+/// The wavelength in nm and one or two values, the last one repeated.
+fn read_row(line: &str, columns: usize) -> Result<[f64; 3]> {
+    let numbers = read_numbers(line)?;
+    if numbers.len() != columns + 1 {
+        let (found, expected) = (numbers.len(), columns + 1);
+        let message = format!("found {found} numbers, expected {expected}: the wavelength in µm and {columns} more");
+        return Err(Error::new(ErrorKind::FileFormat, message));
+    }
+    if numbers[0] <= 0.0 {
+        let message = format!("found the wavelength {} µm, expected more than 0", numbers[0]);
+        return Err(Error::new(ErrorKind::OutOfRange, message));
+    }
+    Ok([nm_from_um(numbers[0]), numbers[1], numbers[columns]])
 }
 
 fn mean_row(rows: &[[f64; 3]]) -> [f64; 3] {
@@ -204,7 +204,12 @@ fn plain_text(html: &str) -> String {
         text.push_str(before);
         // A tag begins with a letter or a slash; "<" in front of anything else is itself.
         match behind.split_once('>') {
-            Some((tag, after)) if tag.starts_with(|c: char| c.is_ascii_alphabetic() || c == '/') => rest = after,
+            Some((tag, after)) if tag.starts_with(|c: char| c.is_ascii_alphabetic() || c == '/') => {
+                if tag.starts_with("br") {
+                    text.push(' ');
+                }
+                rest = after;
+            }
             _ => {
                 text.push('<');
                 rest = behind;

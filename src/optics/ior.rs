@@ -321,8 +321,9 @@ impl IndexOfRefraction {
             Self::Table(_) => "a table is not continued".to_owned(),
             _ => format!("a formula is continued by {CONTINUATION_NM} nm at most"),
         };
+        let hold = if needed[0] < needed[1] { ", or \"extrapolate\": \"hold\" to keep the end values" } else { "" };
         let message = format!(
-            "{subject}: {}, but {} is needed and {rule}; expected wider data, or \"extrapolate\": \"hold\" to keep the end values",
+            "{subject}: {}, but {} is needed and {rule}; expected wider data{hold}",
             self.validity(range),
             span(needed)
         );

@@ -1,7 +1,7 @@
 use super::*;
 use proptest::prelude::*;
 
-const WATER: &str = "# comment\nREFERENCES: |\n    A. Author.\n    <i>J. Opt.</i> <b>1</b>, 2 < 3\nDATA:\n  - type: formula 2\n    wavelength_range: 0.4 0.8\n    coefficients: 0 0.5 0.01\n  - type: tabulated k\n    data: |\n        0.4 1e-7\n        0.8 2e-7\nPROPERTIES:\n    nd: 1.2\n";
+const WATER: &str = "# comment\nREFERENCES: |\n    A. Author.\n    <i>J. Opt.</i><br><b>1</b>, 2 < 3\nDATA:\n  - type: formula 2\n    wavelength_range: 0.4 0.8\n    coefficients: 0 0.5 0.01\n  - type: tabulated k\n    data: |\n        0.4 1e-7\n        0.8 2e-7\nPROPERTIES:\n    nd: 1.2\n";
 
 #[test]
 fn a_formula_with_a_table_of_k() {
@@ -65,11 +65,11 @@ fn malformed_files_are_errors_with_their_place() {
         (formula("0.4", "0"), FileFormat, "line 3: DATA[0].wavelength_range: expected two wavelengths"),
         (formula("0.4 0.4", "0"), OutOfRange, "line 3: DATA[0].wavelength_range: "),
         (formula("-0.4 0.8", "0"), OutOfRange, "line 3: DATA[0].wavelength_range: "),
-        (table("0.5"), FileFormat, "line 3: DATA[0].data, row 1: found 1 numbers, expected 2"),
-        (table("0.5 1.5\n        0.6 1.4 1.3"), FileFormat, "line 3: DATA[0].data, row 2: found 3 numbers"),
-        (table("0.5 nan"), NotFinite, "line 3: DATA[0].data, row 1: "),
-        (table("0.5 1,5"), FileFormat, "line 3: DATA[0].data, row 1: found \"1,5\""),
-        (table("0 1.5"), OutOfRange, "line 3: DATA[0].data, row 1: "),
+        (table("0.5"), FileFormat, "line 4: DATA[0].data, row 1: found 1 numbers, expected 2"),
+        (table("0.5 1.5\n        0.6 1.4 1.3"), FileFormat, "line 5: DATA[0].data, row 2: found 3 numbers"),
+        (table("0.5 nan"), NotFinite, "line 4: DATA[0].data, row 1: "),
+        (table("0.5 1,5"), FileFormat, "line 4: DATA[0].data, row 1: found \"1,5\""),
+        (table("0 1.5"), OutOfRange, "line 4: DATA[0].data, row 1: "),
         (table(""), Missing, "line 3: DATA[0].data: "),
         (
             format!("{}  - type: tabulated n\n    data: 0.5 1.5\n", formula("0.4 0.8", "0")),
