@@ -16,3 +16,6 @@ pub mod scene;
 pub mod spectrum;
 
 pub use error::{Error, ErrorKind, Result, nearest_name};
+
+/// Name and version of this program, as written into files.
+pub const VERSION: &str = concat!("abbe ", env!("CARGO_PKG_VERSION"));

@@ -1,1 +1,150 @@
-//! To be written.
+//! Film → picture: exposure, tone mapping, gamut, transfer curve.
+
+use crate::color::{RgbSpace, srgb_encode};
+use crate::math;
+use glam::DVec3;
+
+/// Tone mapping operators.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tonemap {
+    /// None: linear up to 1, clipped above.
+    Srgb,
+    /// 1 − exp(−x) on each channel.
+    Exponential,
+    /// Y / (1 + Y) on luminance, colour kept [Reinhard2002].
+    Reinhard,
+}
+
+/// A picture ready to be shown: sRGB, 8 bits a channel, row by row from the top left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Picture {
+    /// Pixels per row.
+    pub width: u32,
+    /// Red, green, blue.
+    pub rgb8: Vec<[u8; 3]>,
+    /// Stops by which the picture was exposed.
+    pub exposure_ev: f64,
+    /// Share of pixels whose colour lies outside sRGB by more than a thousandth of its size, and was moved towards grey.
+    pub out_of_gamut: f64,
+}
+
+/// Luminance that automatic exposure brings the picture's key to: middle grey.
+const KEY: f64 = 0.18;
+/// Share of the brightest pixels that automatic exposure leaves out of account.
+const GLARE: f64 = 0.02;
+/// The brightest pixels counted may exceed white by this factor at automatic exposure.
+const HEADROOM: f64 = 4.0;
+
+/// Develops a picture from XYZ.
+pub fn develop(xyz: &[[f64; 3]], width: u32, exposure_ev: Option<f64>, tonemap: Tonemap) -> Picture {
+    let exposure_ev = exposure_ev.unwrap_or_else(|| automatic_exposure(xyz));
+    let factor = math::exp(exposure_ev * std::f64::consts::LN_2);
+    let mut outside = 0usize;
+    let rgb8 = xyz
+        .iter()
+        .map(|&xyz| {
+            let linear = RgbSpace::srgb().rgb_from_xyz * (DVec3::from(xyz) * factor);
+            let (inside, moved) = into_gamut(linear);
+            outside += usize::from(moved);
+            encode(apply(tonemap, inside))
+        })
+        .collect();
+    let out_of_gamut = outside as f64 / xyz.len().max(1) as f64;
+    Picture { width, rgb8, exposure_ev, out_of_gamut }
+}
+
+/// Stops that bring the geometric mean of the luminance to middle grey, but leave all but the brightest pixels within
+/// `HEADROOM` of white. Black pixels do not count: a caustic on black is exposed for the caustic.
+pub fn automatic_exposure(xyz: &[[f64; 3]]) -> f64 {
+    let mut luminance: Vec<f64> = xyz.iter().map(|p| p[1]).filter(|y| *y > 0.0 && y.is_finite()).collect();
+    if luminance.is_empty() {
+        return 0.0;
+    }
+    luminance.sort_by(f64::total_cmp);
+    let bright = luminance[((1.0 - GLARE) * (luminance.len() - 1) as f64) as usize];
+    // Pixels far below the bright ones are shadow; they do not pull the exposure up without bound.
+    let floor = bright * 1e-3;
+    let log_mean = luminance.iter().map(|y| math::ln(y.max(floor))).sum::<f64>() / luminance.len() as f64;
+    let by_key = KEY / math::exp(log_mean);
+    math::ln(by_key.min(HEADROOM / bright)) / std::f64::consts::LN_2
+}
+
+/// Moves a colour with negative components towards the grey of its luminance until they vanish, and tells whether it
+/// was outside by more than rounding.
+fn into_gamut(linear: DVec3) -> (DVec3, bool) {
+    let lowest = linear.min_element();
+    if lowest >= 0.0 {
+        return (linear, false);
+    }
+    let luminance = RgbSpace::srgb().xyz_from_rgb.row(1).dot(linear);
+    if luminance <= 0.0 {
+        return (linear.max(DVec3::ZERO), true);
+    }
+    let inside = DVec3::splat(luminance) + (linear - luminance) * (luminance / (luminance - lowest));
+    (inside.max(DVec3::ZERO), -lowest > 1e-3 * linear.max_element())
+}
+
+fn apply(tonemap: Tonemap, linear: DVec3) -> DVec3 {
+    match tonemap {
+        Tonemap::Srgb => linear,
+        Tonemap::Exponential => linear.map(|x| 1.0 - math::exp(-x)),
+        Tonemap::Reinhard => {
+            let luminance = RgbSpace::srgb().xyz_from_rgb.row(1).dot(linear);
+            linear / (1.0 + luminance)
+        }
+    }
+}
+
+/// Too bright colours keep their hue: they are scaled to white's edge halfway between clipping and scaling.
+fn encode(linear: DVec3) -> [u8; 3] {
+    let peak = linear.max_element();
+    let shown = if peak > 1.0 {
+        // What exceeds white bleeds into the other channels, as it does on film.
+        let excess = peak - 1.0;
+        (linear / peak).lerp(DVec3::ONE, (excess / (excess + 2.0)).clamp(0.0, 1.0))
+    } else {
+        linear
+    };
+    shown.to_array().map(|x| (srgb_encode(x.clamp(0.0, 1.0)) * 255.0 + 0.5) as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grey_stays_grey_and_white_is_white() {
+        let white = RgbSpace::srgb().white_xyz();
+        for y in [0.0, 0.18, 0.5, 1.0] {
+            let picture = develop(&[(white * y).to_array()], 1, Some(0.0), Tonemap::Srgb);
+            let expected = (srgb_encode(y) * 255.0 + 0.5) as u8;
+            assert_eq!(picture.rgb8[0], [expected; 3]);
+            assert_eq!(picture.out_of_gamut, 0.0);
+        }
+        assert_eq!(develop(&[(white * 0.25).to_array()], 1, Some(2.0), Tonemap::Srgb).rgb8[0], [255; 3]);
+    }
+
+    /// A laser line is outside sRGB: it loses saturation, not hue, and is counted.
+    #[test]
+    fn saturated_colors_are_counted() {
+        let picture = develop(&[[0.1, 0.5, 0.05]], 1, Some(0.0), Tonemap::Srgb);
+        assert_eq!(picture.out_of_gamut, 1.0);
+        let [r, g, b] = picture.rgb8[0];
+        assert!(g > r && g > b, "{r} {g} {b}");
+    }
+
+    #[test]
+    fn automatic_exposure_brings_grey_to_the_key() {
+        let picture = vec![[0.5, 0.5, 0.5]; 100];
+        assert!((automatic_exposure(&picture) - (0.18f64 / 0.5).log2()).abs() < 1e-12);
+        assert_eq!(automatic_exposure(&[[0.0; 3]; 4]), 0.0);
+    }
+
+    #[test]
+    fn operators() {
+        let white = RgbSpace::srgb().white_xyz();
+        let level = |tonemap| develop(&[white.to_array()], 1, Some(0.0), tonemap).rgb8[0][1];
+        assert_eq!(level(Tonemap::Reinhard), (srgb_encode(0.5) * 255.0 + 0.5) as u8);
+        assert_eq!(level(Tonemap::Exponential), (srgb_encode(1.0 - math::exp(-1.0)) * 255.0 + 0.5) as u8);
+    }
+}

@@ -7,8 +7,10 @@ use crate::{Error, ErrorKind, Result};
 /// A sphere in object space; under an affine transform an ellipsoid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
-    pub(super) center: DVec3,
-    pub(super) radius: f64,
+    /// Centre.
+    pub center: DVec3,
+    /// Radius, > 0.
+    pub radius: f64,
 }
 
 impl Sphere {

@@ -110,6 +110,21 @@ pub enum AreaShape {
     Unsampled,
 }
 
+impl LightKind {
+    /// Power per unit of the light's spectrum.
+    pub fn power(&self, scene_radius: f32) -> f64 {
+        let (pi, radius) = (std::f64::consts::PI, f64::from(scene_radius));
+        match *self {
+            Self::Area { area, two_sided, .. } => pi * f64::from(area) * if two_sided { 2.0 } else { 1.0 },
+            Self::Point { .. } => 4.0 * pi,
+            Self::Spot { inner, outer, .. } => pi * f64::from(inner + outer),
+            Self::Directional { .. } => pi * radius * radius,
+            Self::Beam { .. } => 1.0,
+            Self::Environment => 4.0 * pi * pi * radius * radius,
+        }
+    }
+}
+
 /// A direction towards a light.
 #[derive(Debug, Clone, Copy)]
 pub struct LightSample {
@@ -176,17 +191,9 @@ impl Light {
         }
     }
 
-    /// Power per unit of the light's spectrum.
-    pub fn power(&self, scene_radius: f32) -> f64 {
-        let (pi, radius) = (std::f64::consts::PI, f64::from(scene_radius));
-        match self.kind {
-            LightKind::Area { area, two_sided, .. } => pi * f64::from(area) * if two_sided { 2.0 } else { 1.0 },
-            LightKind::Point { .. } => 4.0 * pi,
-            LightKind::Spot { inner, outer, .. } => pi * f64::from(inner + outer),
-            LightKind::Directional { .. } => pi * radius * radius,
-            LightKind::Beam { .. } => 1.0,
-            LightKind::Environment => 4.0 * pi * pi * radius * radius,
-        }
+    /// Whether a ray that leaves the scene can run into it.
+    pub fn is_infinite(&self) -> bool {
+        matches!(self.kind, LightKind::Environment) || matches!(self.kind, LightKind::Directional { one_minus_cos, .. } if one_minus_cos > 0.0)
     }
 
     /// Draws a direction from `from` towards the light.

@@ -93,9 +93,9 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
     let normalization = Normalization::of(description, &placed);
     let mut spectra = Spectra::new(description);
     let materials = Materials::compile(description, &mut spectra, &normalization, &mut warnings)?;
-    let geometry = Geometry::compile(description, placed, &normalization, &materials)?;
+    let mut geometry = Geometry::compile(description, placed, &normalization, &materials)?;
     let bvh = Bvh::build(&geometry.positions, &geometry.triangles, &geometry.analytic_bounds());
-    let lights = lights::compile(description, &geometry, &mut spectra, &normalization, integrator, &mut warnings)?;
+    let lights = lights::compile(description, &mut geometry, &mut spectra, &normalization, integrator, &mut warnings)?;
     let features = SceneFeatures {
         dispersion: materials.media.iter().any(|m| m.dispersive),
         interiors: !materials.media.is_empty(),

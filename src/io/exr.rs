@@ -1,0 +1,85 @@
+//! OpenEXR output: 32-bit float, scan lines, ZIP; channels R, G, B (linear sRGB) and X, Y, Z.
+
+use crate::color::RgbSpace;
+use crate::{Error, ErrorKind, Result};
+use exr::prelude::*;
+use glam::DVec3;
+use std::io::Cursor;
+
+/// What is written beside the pixels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Attributes {
+    /// Hash of the scene's file.
+    pub scene_hash: u64,
+    /// Seed of the render.
+    pub seed: u64,
+    /// Camera paths per pixel.
+    pub samples_per_pixel: u64,
+    /// Wall time of the render.
+    pub seconds: f64,
+}
+
+/// Encodes a picture given as XYZ, row by row. Also tells how many values did not fit into f32 and became its largest.
+pub fn encode(xyz: &[[f64; 3]], width: u32, attributes: &Attributes) -> Result<(Vec<u8>, usize)> {
+    let size = Vec2(width as usize, xyz.len() / width as usize);
+    let mut overflows = 0;
+    let mut narrow = |v: f64| {
+        let fits = v.abs() <= f64::from(f32::MAX);
+        overflows += usize::from(!fits);
+        if fits { v as f32 } else { f32::MAX.copysign(v as f32) }
+    };
+    let mut planes: [Vec<f32>; 6] = Default::default();
+    for &pixel in xyz {
+        let rgb = RgbSpace::srgb().rgb_from_xyz * DVec3::from(pixel);
+        for (plane, value) in planes.iter_mut().zip([rgb.x, rgb.y, rgb.z, pixel[0], pixel[1], pixel[2]]) {
+            plane.push(narrow(value));
+        }
+    }
+    let channels = ["R", "G", "B", "X", "Y", "Z"].into_iter().zip(planes);
+    let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> =
+        channels.map(|(name, plane)| AnyChannel::new(name, FlatSamples::F32(plane))).collect();
+
+    let mut layer = LayerAttributes { software_name: Some(Text::from(crate::VERSION)), ..Default::default() };
+    let mut other = |name: &str, value: AttributeValue| layer.other.insert(Text::from(name), value);
+    other("sceneHash", AttributeValue::Text(Text::from(format!("{:016x}", attributes.scene_hash).as_str())));
+    other("seed", AttributeValue::Text(Text::from(attributes.seed.to_string().as_str())));
+    other("samplesPerPixel", AttributeValue::Text(Text::from(attributes.samples_per_pixel.to_string().as_str())));
+    other("renderSeconds", AttributeValue::F64(attributes.seconds));
+    let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::FAST_LOSSLESS };
+    let layer = Layer::new(size, layer, encoding, AnyChannels::sort(channels));
+
+    let mut image = Image::from_layer(layer);
+    let at = |[x, y]: [f64; 2]| Vec2(x as f32, y as f32);
+    let [red, green, blue] = RgbSpace::srgb().primaries.map(at);
+    let white = at(RgbSpace::srgb().white);
+    image.attributes.chromaticities = Some(attribute::Chromaticities { red, green, blue, white });
+    let mut bytes = Cursor::new(Vec::new());
+    image
+        .write()
+        .to_buffered(&mut bytes)
+        .map_err(|e| Error::new(ErrorKind::Io, format!("cannot encode the EXR: {e}")))?;
+    Ok((bytes.into_inner(), overflows))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_can_be_read() {
+        let attributes = Attributes { scene_hash: 0xabc, seed: 7, samples_per_pixel: 16, seconds: 1.5 };
+        let xyz: Vec<[f64; 3]> = (0..6).map(|i| [f64::from(i), 0.5, 1e60]).collect();
+        let (bytes, overflows) = encode(&xyz, 3, &attributes).unwrap();
+        assert!(overflows > 0);
+        let image = read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
+        let image = image.from_buffered(Cursor::new(bytes)).unwrap();
+        let layer = &image.layer_data[0];
+        assert_eq!((layer.size.0, layer.size.1), (3, 2));
+        let names: Vec<String> = layer.channel_data.list.iter().map(|c| c.name.to_string()).collect();
+        assert_eq!(names, ["B", "G", "R", "X", "Y", "Z"]);
+        let x = &layer.channel_data.list[3].sample_data;
+        assert_eq!(x.values_as_f32().collect::<Vec<_>>(), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert_eq!(layer.attributes.other[&Text::from("sceneHash")], AttributeValue::Text("0000000000000abc".into()));
+        assert!(image.attributes.chromaticities.is_some());
+    }
+}
