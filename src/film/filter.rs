@@ -45,6 +45,11 @@ impl Filter {
         Self { radius: radius as f32, profile: Some(PiecewiseLinearDensity::new(&x, &y)) }
     }
 
+    /// Radius in pixels.
+    pub fn radius(&self) -> f32 {
+        self.radius
+    }
+
     /// An offset from the pixel's centre, in pixels, drawn from the filter.
     pub fn sample(&self, u: [f32; 2]) -> [f32; 2] {
         u.map(|u| match &self.profile {

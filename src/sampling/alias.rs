@@ -46,6 +46,11 @@ impl AliasTable {
         Self { columns, probabilities: weights.iter().map(|w| (w / total) as f32).collect() }
     }
 
+    /// Whether nothing can be drawn.
+    pub fn is_empty(&self) -> bool {
+        self.columns.is_empty()
+    }
+
     /// Draws with `u` in [0, 1); `None` if nothing can be drawn.
     pub fn sample(&self, u: f32) -> Option<Draw> {
         let n = self.columns.len();

@@ -79,6 +79,11 @@ impl Camera {
         (2.0 * w / self.size[0] as f32) * (2.0 * h / self.size[1] as f32)
     }
 
+    /// Size of the film in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
     /// Pixels of the film.
     pub fn pixels(&self) -> u64 {
         u64::from(self.size[0]) * u64::from(self.size[1])

@@ -9,7 +9,7 @@ mod light;
 mod material;
 
 pub use camera::{Camera, Connection};
-pub use compile::{Compiled, DevelopSettings, FilmSettings, Integrator, RenderSettings, compile};
+pub use compile::{Compiled, FilmSettings, Integrator, RenderSettings, compile};
 pub use features::SceneFeatures;
 pub use light::{AreaShape, Emission, EmissionStart, Light, LightKind, LightSample};
 pub use material::{Material, Medium, MediumId, SpectrumId};

@@ -7,7 +7,7 @@ mod materials;
 mod normalize;
 mod spectra;
 
-use super::description::{FilterKind, FovAxis, Integrator as IntegratorName, SceneDescription, Tonemap};
+use super::description::{FilterKind, FovAxis, Integrator as IntegratorName, SceneDescription};
 use super::{Camera, Scene, SceneFeatures};
 use crate::film::Filter;
 use crate::geometry::Bvh;
@@ -28,8 +28,6 @@ pub struct Compiled {
     pub render: RenderSettings,
     /// What to record it on.
     pub film: FilmSettings,
-    /// How to develop it.
-    pub develop: DevelopSettings,
     /// What deserves a look, one line each.
     pub warnings: Vec<String>,
 }
@@ -67,15 +65,6 @@ pub struct FilmSettings {
     pub height: u32,
     /// Reconstruction filter.
     pub filter: Filter,
-}
-
-/// How to develop a film for a PNG.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DevelopSettings {
-    /// Stops; `None` is automatic.
-    pub exposure_ev: Option<f64>,
-    /// Operator.
-    pub tonemap: Tonemap,
 }
 
 /// Compiles a description. Reads the files it names.
@@ -140,10 +129,6 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
             integrator,
         },
         film: FilmSettings { width: film.width, height: film.height, filter },
-        develop: DevelopSettings {
-            exposure_ev: description.develop.exposure_ev,
-            tonemap: description.develop.tonemap,
-        },
         warnings,
     })
 }

@@ -1,0 +1,209 @@
+//! Camera paths with next-event estimation.
+
+use super::walk::{Crossing, Walk};
+use super::{Techniques, bounce};
+use crate::bsdf::{Bsdf, Indices};
+use crate::geometry::Frame;
+use crate::sampling::balance_heuristic;
+use crate::scene::{LightSample, Material, Scene, Surface};
+use crate::spectrum::SampledSpectrum;
+use glam::Vec3;
+
+/// How the ray under way was chosen: what else could have found the light that it runs into.
+#[derive(Debug, Clone, Copy)]
+enum Origin {
+    /// By the camera, or by delta scattering alone since.
+    Delta {
+        /// Density per unit area with which camera rays reach the first surface, if that was diffuse. Then light paths
+        /// can end there too.
+        first_diffuse: Option<f32>,
+    },
+    /// By scattering at `from` with this density in solid angle: next-event estimation could have found it as well.
+    Scattered { from: Vec3, pdf: f32, first_diffuse: Option<f32> },
+}
+
+/// Radiance that arrives along a camera path, in the camera's medium.
+pub fn radiance<const DISPERSION: bool, const INTERIORS: bool>(
+    walk: &mut Walk,
+    techniques: &Techniques,
+    max_depth: u32,
+) -> SampledSpectrum {
+    let scene = walk.scene;
+    let mut radiance = SampledSpectrum::ZERO;
+    let mut origin = Origin::Delta { first_diffuse: None };
+    let camera_indices = if INTERIORS { Some(medium_indices(walk)) } else { None };
+    loop {
+        let surface = walk.advance::<INTERIORS>();
+
+        // Emission.
+        match &surface {
+            None => radiance += escaped::<INTERIORS>(walk, techniques, origin, &camera_indices),
+            Some(surface) => radiance += emitted::<INTERIORS>(walk, techniques, surface, origin, &camera_indices),
+        }
+        let Some(surface) = surface else { break };
+        if walk.depth >= max_depth {
+            break;
+        }
+
+        // Transparent surfaces.
+        let object = &scene.objects[surface.object as usize];
+        let u = walk.random();
+        if let Material::Dielectric { medium } = object.material {
+            match walk.meet_dielectric::<DISPERSION>(&surface, medium, u[2]) {
+                Crossing::Passed => continue,
+                Crossing::Ended => break,
+                Crossing::Scattered => origin = origin.after_delta(),
+            }
+        } else {
+            // Opaque surfaces: light that arrives directly, then a new direction.
+            let Some((bsdf, frame)) = walk.bsdf::<INTERIORS>(object, &surface) else { break };
+            let wo = -walk.ray.direction;
+            if !bsdf.is_specular() {
+                if walk.depth == 0 {
+                    origin = origin.at_first_diffuse(camera_density(scene, &surface, wo));
+                }
+                radiance += direct_light::<INTERIORS>(walk, &surface, &bsdf, &frame, wo, u, &camera_indices);
+            }
+            let Some(sample) = bounce(walk, &surface, &bsdf, &frame, [u[0], u[1]]) else { break };
+            origin = match sample.pdf {
+                None => origin.after_delta(),
+                Some(pdf) => origin.after_scattering(surface.point, pdf),
+            };
+        }
+        if !walk.survives(u[3]) {
+            break;
+        }
+    }
+    radiance
+}
+
+impl Origin {
+    fn first_diffuse(self) -> Option<f32> {
+        match self {
+            Self::Delta { first_diffuse } | Self::Scattered { first_diffuse, .. } => first_diffuse,
+        }
+    }
+
+    fn at_first_diffuse(self, density: f32) -> Self {
+        Self::Delta { first_diffuse: Some(density) }
+    }
+
+    fn after_delta(self) -> Self {
+        Self::Delta { first_diffuse: self.first_diffuse() }
+    }
+
+    fn after_scattering(self, from: Vec3, pdf: f32) -> Self {
+        Self::Scattered { from, pdf, first_diffuse: self.first_diffuse() }
+    }
+}
+
+fn medium_indices(walk: &mut Walk) -> Indices {
+    let medium = walk.workspace.interiors.medium(walk.scene);
+    walk.workspace.spectra.indices(walk.scene, medium)
+}
+
+/// (n_camera / n_here)²: radiance is collected here and recorded there. What refraction changes on the way telescopes to
+/// this, so that no path carries it.
+fn radiance_ratio<const INTERIORS: bool>(walk: &mut Walk, camera: &Option<Indices>) -> SampledSpectrum {
+    let (true, Some(camera)) = (INTERIORS, camera) else { return SampledSpectrum::ONE };
+    let here = medium_indices(walk);
+    if here == *camera {
+        return SampledSpectrum::ONE;
+    }
+    SampledSpectrum::from_fn(|k| {
+        let ratio = camera.eta[k] / here.eta[k];
+        (ratio * ratio) as f32
+    })
+}
+
+/// Density per unit area with which the camera's rays, all pixels taken together, reach a surface seen directly.
+pub fn camera_density(scene: &Scene, surface: &Surface, wo: Vec3) -> f32 {
+    let cos = surface.geometric.as_vec3().dot(wo).abs();
+    let seen = scene.camera.connect(surface.point, [0.5; 2], f32::INFINITY);
+    seen.map_or(0.0, |seen| seen.importance * cos / scene.camera.pixels() as f32)
+}
+
+/// Light met by a ray that leaves the scene.
+fn escaped<const INTERIORS: bool>(
+    walk: &mut Walk,
+    techniques: &Techniques,
+    origin: Origin,
+    camera: &Option<Indices>,
+) -> SampledSpectrum {
+    let scene = walk.scene;
+    let mut radiance = SampledSpectrum::ZERO;
+    for &index in &scene.infinite_lights {
+        let light = &scene.lights[index as usize];
+        let Some((factor, pdf)) = light.escaped(walk.ray.direction) else { continue };
+        let weight = hit_weight(scene, techniques, index, origin, |_| pdf);
+        radiance += walk.workspace.spectra.spectrum(scene, light.spectrum) * (factor * weight);
+    }
+    if radiance.is_zero() {
+        return radiance;
+    }
+    radiance * walk.throughput * radiance_ratio::<INTERIORS>(walk, camera)
+}
+
+/// Light emitted by a surface that a ray has met.
+fn emitted<const INTERIORS: bool>(
+    walk: &mut Walk,
+    techniques: &Techniques,
+    surface: &Surface,
+    origin: Origin,
+    camera: &Option<Indices>,
+) -> SampledSpectrum {
+    let scene = walk.scene;
+    let Some(index) = scene.objects[surface.object as usize].light else { return SampledSpectrum::ZERO };
+    let light = &scene.lights[index as usize];
+    if !light.emits(surface, walk.ray.direction) {
+        return SampledSpectrum::ZERO;
+    }
+    let direction = walk.ray.direction;
+    let weight = hit_weight(scene, techniques, index, origin, |from| light.pdf_surface(from, direction, surface));
+    let emission = walk.workspace.spectra.spectrum(scene, light.spectrum);
+    emission * walk.throughput * weight * radiance_ratio::<INTERIORS>(walk, camera)
+}
+
+/// Weight of a light found by running into it, against the other techniques that could have found the same path.
+fn hit_weight(
+    scene: &Scene,
+    techniques: &Techniques,
+    index: u32,
+    origin: Origin,
+    light_pdf: impl Fn(Vec3) -> f32,
+) -> f32 {
+    match origin {
+        Origin::Scattered { from, pdf, .. } => {
+            balance_heuristic(pdf, scene.light_table.probability(index as usize) * light_pdf(from))
+        }
+        Origin::Delta { first_diffuse: Some(density) } => techniques.camera_path_weight(scene, index, density),
+        Origin::Delta { first_diffuse: None } => 1.0,
+    }
+}
+
+/// Next-event estimation: light from one light, drawn by its power, that arrives at a surface directly.
+fn direct_light<const INTERIORS: bool>(
+    walk: &mut Walk,
+    surface: &Surface,
+    bsdf: &Bsdf,
+    frame: &Frame,
+    wo: Vec3,
+    u: [f32; 8],
+    camera: &Option<Indices>,
+) -> SampledSpectrum {
+    let scene = walk.scene;
+    let Some(draw) = scene.light_table.sample(u[4]) else { return SampledSpectrum::ZERO };
+    let light = &scene.lights[draw.index];
+    let Some(LightSample { target, wi, weight, pdf }) = light.sample(scene, surface.point, [u[5], u[6]]) else {
+        return SampledSpectrum::ZERO;
+    };
+    let reflected = bsdf.eval(frame, wo, wi);
+    if reflected.is_zero() {
+        return SampledSpectrum::ZERO;
+    }
+    let Some(transmittance) = walk.visibility::<INTERIORS>(surface, wi, target) else { return SampledSpectrum::ZERO };
+    let mis = pdf.map_or(1.0, |pdf| balance_heuristic(draw.probability * pdf, bsdf.pdf(frame, wo, wi)));
+    let emission = walk.workspace.spectra.spectrum(scene, light.spectrum);
+    let factor = weight * mis / draw.probability;
+    walk.throughput * reflected * emission * transmittance * factor * radiance_ratio::<INTERIORS>(walk, camera)
+}

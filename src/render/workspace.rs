@@ -1,0 +1,160 @@
+//! What a thread keeps from path to path, so that no path allocates: spectra at the path's wavelengths, and the list of
+//! transparent objects that it is inside of.
+
+use crate::bsdf::Indices;
+use crate::scene::{MediumId, Scene, SpectrumId};
+use crate::spectrum::{SampledSpectrum, Wavelengths};
+
+/// One thread's memory and counters.
+#[derive(Debug)]
+pub struct Workspace {
+    /// Spectra at the wavelengths of the current path.
+    pub spectra: SpectralCache,
+    /// What the path is inside of.
+    pub interiors: Interiors,
+    /// The same for a shadow ray.
+    pub shadow_interiors: Interiors,
+    /// What has been counted.
+    pub counters: Counters,
+}
+
+/// Things that are counted.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Rays traced: segments of paths and shadow rays.
+    pub rays: u64,
+    /// Rays that left a transparent object they had not entered.
+    pub medium_underflows: u64,
+}
+
+impl Counters {
+    /// Adds another thread's.
+    pub fn add(&mut self, other: Self) {
+        self.rays += other.rays;
+        self.medium_underflows += other.medium_underflows;
+    }
+}
+
+impl Workspace {
+    /// For a scene.
+    pub fn new(scene: &Scene) -> Self {
+        Self {
+            spectra: SpectralCache::new(scene),
+            interiors: Interiors::default(),
+            shadow_interiors: Interiors::default(),
+            counters: Counters::default(),
+        }
+    }
+}
+
+/// Spectra and indices of refraction at a path's wavelengths, evaluated when first asked for.
+#[derive(Debug)]
+pub struct SpectralCache {
+    wavelengths: Wavelengths,
+    /// The path that an entry belongs to.
+    path: u64,
+    spectra: Vec<(u64, SampledSpectrum)>,
+    media: Vec<(u64, Indices)>,
+}
+
+impl SpectralCache {
+    fn new(scene: &Scene) -> Self {
+        Self {
+            wavelengths: Wavelengths { lambda_nm: [550.0; 8], pdf: [1.0; 8] },
+            path: 0,
+            spectra: vec![(0, SampledSpectrum::ZERO); scene.spectra.len()],
+            media: vec![(0, Indices::AIR); scene.media.len()],
+        }
+    }
+
+    /// Forgets the last path.
+    pub fn begin(&mut self, wavelengths: Wavelengths) {
+        self.wavelengths = wavelengths;
+        self.path += 1;
+    }
+
+    /// A spectrum at the path's wavelengths.
+    #[inline]
+    pub fn spectrum(&mut self, scene: &Scene, id: SpectrumId) -> SampledSpectrum {
+        let (path, value) = &mut self.spectra[id.0 as usize];
+        if *path != self.path {
+            *path = self.path;
+            *value = scene.spectra[id.0 as usize].sample(&self.wavelengths);
+        }
+        *value
+    }
+
+    /// The indices of a medium at the path's wavelengths; `None` is air.
+    #[inline]
+    pub fn indices(&mut self, scene: &Scene, medium: Option<MediumId>) -> Indices {
+        let Some(id) = medium else { return Indices::AIR };
+        let (path, value) = &mut self.media[id.0 as usize];
+        if *path != self.path {
+            *path = self.path;
+            let medium = &scene.media[id.0 as usize];
+            let dispersive = medium.dispersive;
+            value.dispersive = dispersive;
+            if dispersive {
+                value.eta = self.wavelengths.lambda_nm.map(|lambda| medium.ior.eval(f64::from(lambda)));
+            } else {
+                value.eta = [medium.ior.eval(f64::from(self.wavelengths.lambda_nm[0])); 8];
+            }
+        }
+        *value
+    }
+}
+
+/// The transparent objects that hold a point, in the order in which they were entered. Where they overlap, the one of
+/// highest priority is there, and of equals the one entered last.
+#[derive(Debug, Clone, Default)]
+pub struct Interiors {
+    entries: Vec<(u32, MediumId)>,
+}
+
+impl Interiors {
+    /// Starts from a known list.
+    pub fn reset(&mut self, entries: &[(u32, MediumId)]) {
+        self.entries.clear();
+        self.entries.extend_from_slice(entries);
+    }
+
+    /// Copies another list.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.reset(&other.entries);
+    }
+
+    /// What is there; `None` is air.
+    #[inline]
+    pub fn medium(&self, scene: &Scene) -> Option<MediumId> {
+        top(scene, self.entries.iter().copied())
+    }
+
+    /// What will be there after entering or leaving an object.
+    pub fn medium_beyond(&self, scene: &Scene, object: u32, medium: MediumId, entering: bool) -> Option<MediumId> {
+        if entering {
+            return top(scene, self.entries.iter().copied().chain([(object, medium)]));
+        }
+        let last = self.entries.iter().rposition(|(o, _)| *o == object);
+        top(scene, self.entries.iter().copied().enumerate().filter(|(i, _)| Some(*i) != last).map(|(_, e)| e))
+    }
+
+    /// Enters or leaves an object; `false` when leaving one that was never entered, which changes nothing.
+    pub fn cross(&mut self, object: u32, medium: MediumId, entering: bool) -> bool {
+        if entering {
+            self.entries.push((object, medium));
+            return true;
+        }
+        match self.entries.iter().rposition(|(o, _)| *o == object) {
+            Some(index) => {
+                self.entries.remove(index);
+                true
+            }
+            None => false,
+        }
+    }
+}
+
+fn top(scene: &Scene, entries: impl Iterator<Item = (u32, MediumId)>) -> Option<MediumId> {
+    // Of equal maxima `max_by_key` returns the last.
+    entries.max_by_key(|(_, medium)| scene.media[medium.0 as usize].priority).map(|(_, medium)| medium)
+}
