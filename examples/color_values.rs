@@ -41,6 +41,7 @@ fn answer(text: &str) -> Result<Value> {
     let reflectances = list(&request, "reflectances")?.iter().map(table).collect::<Result<Vec<_>>>()?;
     let emissions = list(&request, "emissions")?.iter().map(table).collect::<Result<Vec<_>>>()?;
     let lines = list(&request, "lines")?.iter().map(line).collect::<Result<Vec<_>>>()?;
+    let bodies = numbers(&request["blackbodies"])?.into_iter().map(Spectrum::blackbody).collect::<Result<Vec<_>>>()?;
     let xyz = |spectrum: &Spectrum| color::xyz_of_emission(spectrum, observer).to_array();
     let under_lamps = |reflectance: &Spectrum| -> Vec<[f64; 3]> {
         lamps.iter().map(|lamp| color::xyz_of_reflectance(reflectance, lamp, observer).to_array()).collect()
@@ -52,6 +53,7 @@ fn answer(text: &str) -> Result<Value> {
         "emission_xyz": emissions.iter().map(xyz).collect::<Vec<_>>(),
         "line_xyz": lines.iter().map(xyz).collect::<Vec<_>>(),
         "blackbodies": blackbodies(&request)?,
+        "blackbody_xyz": bodies.iter().map(xyz).collect::<Vec<_>>(),
         "spaces": RgbSpace::all().iter().map(space).collect::<Vec<_>>(),
         "encoded": numbers(&request["transfer"])?.into_iter().map(color::srgb_encode).collect::<Vec<_>>(),
         "decoded": numbers(&request["transfer"])?.into_iter().map(color::srgb_decode).collect::<Vec<_>>(),

@@ -52,8 +52,10 @@ def matrices(values):
 
 def transfer(values):
     encoded = oracle.largest_absolute(values["encoded"], colour.models.eotf_inverse_sRGB(np.asarray(TRANSFER)))
-    # Decoding 16 gives 670: relative above 1.
+    # Decoding 16 gives 670: relative above 1. colour switches at 12.92 times 0.0031308, IEC 61966-2-1 and we at 0.04045.
     expected = colour.models.eotf_sRGB(np.asarray(TRANSFER))
+    differs = (np.asarray(TRANSFER) > 12.92 * 0.0031308) & (np.asarray(TRANSFER) <= 0.04045)
+    expected = np.where(differs, np.asarray(TRANSFER) / 12.92, expected)
     decoded = float((np.abs(values["decoded"] - expected) / np.maximum(1.0, np.abs(expected))).max())
     return [
         oracle.row("sRGB encoding v. colour.eotf_inverse_sRGB", len(TRANSFER), encoded, 1e-12),
