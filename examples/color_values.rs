@@ -6,7 +6,8 @@
 //! * `illuminants`: names; `reflectances`, `emissions`: tables; `lines`: `[centre, width]` in nm;
 //! * `blackbodies`: temperatures in K, `wavelengths_nm` to evaluate them at;
 //! * `transfer`: components to encode and to decode;
-//! * `reflectance_rgb`, `emission_rgb`: linear sRGB colours to upsample.
+//! * `reflectance_rgb`, `emission_rgb`: linear sRGB colours to upsample;
+//! * `realisable_rgb`: linear colours to look for a reflectance of, in every space.
 
 use abbe::color::{self, Observer, RgbSpace, illuminant, upsample};
 use abbe::spectrum::{PiecewiseLinear, Spectrum};
@@ -58,6 +59,7 @@ fn answer(text: &str) -> Result<Value> {
         "encoded": numbers(&request["transfer"])?.into_iter().map(color::srgb_encode).collect::<Vec<_>>(),
         "decoded": numbers(&request["transfer"])?.into_iter().map(color::srgb_decode).collect::<Vec<_>>(),
         "reflectance_spectra": upsampled(&request, "reflectance_rgb", upsample::reflectance)?,
+        "realisable": realisable(&request)?,
         "emission_spectra": upsampled(&request, "emission_rgb", upsample::emission)?,
     }))
 }
@@ -90,11 +92,23 @@ fn upsampled(
     method: impl Fn([f64; 3], &RgbSpace) -> Result<Spectrum>,
 ) -> Result<Vec<Vec<f64>>> {
     let spectrum = |value: &Value| {
-        let rgb = DVec3::from_slice(&numbers_exactly(value, 3)?).to_array();
-        let spectrum = method(rgb, RgbSpace::srgb())?;
+        let spectrum = method(rgb(value)?, RgbSpace::srgb())?;
         Ok((360..=830).map(|lambda| spectrum.eval(f64::from(lambda))).collect())
     };
     list(request, key)?.iter().map(spectrum).collect()
+}
+
+/// By space: whether each colour has a reflectance.
+fn realisable(request: &Value) -> Result<Value> {
+    let colors = list(request, "realisable_rgb")?.iter().map(rgb).collect::<Result<Vec<_>>>()?;
+    let in_space = |space: &RgbSpace| -> Vec<bool> {
+        colors.iter().map(|&color| upsample::reflectance(color, space).is_ok()).collect()
+    };
+    Ok(RgbSpace::all().iter().map(|space| (space.name.to_owned(), json!(in_space(space)))).collect())
+}
+
+fn rgb(value: &Value) -> Result<[f64; 3]> {
+    Ok(DVec3::from_slice(&numbers_exactly(value, 3)?).to_array())
 }
 
 fn list<'a>(value: &'a Value, key: &str) -> Result<&'a [Value]> {

@@ -3,6 +3,7 @@
 import itertools
 
 import numpy as np
+from scipy.optimize import linprog
 
 import colour
 import oracle
@@ -23,11 +24,17 @@ TRANSFER = sorted(
 )
 LEVELS = [float(x) for x in colour.models.eotf_sRGB(np.linspace(0.0, 1.0, 9))]
 CUBE = [list(rgb) for rgb in itertools.product(LEVELS, repeat=3)]
+COARSE_CUBE = [list(rgb) for rgb in itertools.product(LEVELS[::2], repeat=3)]
 WAVELENGTHS = np.arange(360.0, 831.0)
 
 
 def request():
-    return {"transfer": [float(x) for x in TRANSFER], "reflectance_rgb": CUBE, "emission_rgb": CUBE}
+    return {
+        "transfer": [float(x) for x in TRANSFER],
+        "reflectance_rgb": CUBE,
+        "emission_rgb": CUBE,
+        "realisable_rgb": COARSE_CUBE,
+    }
 
 
 def check(values):
@@ -90,7 +97,26 @@ def reflectance(values):
         oracle.row("upsampled reflectances, how far outside of [0, 1]", len(CUBE), outside, 0),
         oracle.row("upsampled greys, deviation from a constant", len(greys), flat, 0),
         oracle.row("upsampled reflectances, distance from the smoothest logit", *optimality(spectra, weights)),
+        realisable(values, weights),
     ]
+
+
+def realisable(values, weights):
+    """A reflectance is found exactly where linear programming finds any r in [0, 1] of that colour."""
+    white, cases, wrong = weights.sum(axis=0), 0, 0
+    for name, found in values["realisable"].items():
+        space = colour.RGB_COLOURSPACES[SPACES[name]]
+        xyz_from_rgb = colour.normalised_primary_matrix(space.primaries, space.whitepoint)
+        adapted = bradford(colour.xy_to_XYZ(space.whitepoint), white) @ xyz_from_rgb
+        for rgb, is_found in zip(COARSE_CUBE, found):
+            # Black and white touch the boundary: rounding decides about the programme, not about us.
+            if min(rgb) == max(rgb):
+                wrong += not is_found
+            else:
+                programme = linprog(np.zeros(len(weights)), A_eq=weights.T, b_eq=adapted @ rgb, bounds=(0, 1))
+                wrong += is_found != (programme.status == 0)
+            cases += 1
+    return oracle.row("which colours have a reflectance v. linear programming, differing", cases, wrong, 0)
 
 
 def optimality(spectra, weights):
