@@ -41,7 +41,8 @@ pub fn relative_power(name: &str) -> Result<PiecewiseLinear> {
     match FAMILIES.into_iter().find(|text| table::column_names(text).any(|n| n == name)) {
         Some(text) => table::column(text, name),
         None => {
-            let message = format!("unknown illuminant {name:?}; expected a CIE name such as \"D65\", \"A\" or \"FL11\"");
+            let message =
+                format!("unknown illuminant {name:?}; expected a CIE name such as \"D65\", \"A\" or \"FL11\"");
             Err(Error::new(ErrorKind::UnknownName, message).nearest(name, names()))
         }
     }
@@ -71,7 +72,8 @@ mod tests {
 
     #[test]
     fn chromaticities_are_the_published_ones() {
-        // CIE 15, table T.3 and T.8; integrated at 1 nm they agree within 5e-5.
+        // CIE 15, tables T.3 and T.8, from sums at 5 nm; the exact integral differs by less than 5e-5, by up to 3e-4 for C
+        // and for lamps with lines.
         let published = [
             ("A", 0.44758, 0.40745),
             ("C", 0.31006, 0.31616),
@@ -86,7 +88,7 @@ mod tests {
         ];
         for (name, x, y) in published {
             let xy = chromaticity(xyz_of_emission(&by_name(name).unwrap(), Observer::cie_1931_2deg()));
-            let tolerance = if name.starts_with("FL") { 2e-4 } else { 5e-5 };
+            let tolerance = if name.starts_with("FL") || name == "C" { 3e-4 } else { 5e-5 };
             assert!((xy[0] - x).abs() < tolerance && (xy[1] - y).abs() < tolerance, "{name}: {xy:?}");
         }
     }

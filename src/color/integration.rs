@@ -35,8 +35,7 @@ pub fn integral_of_product_3(
 ) -> f64 {
     let knots = merged_knots(&[a, b, c], from_nm, to_nm);
     let [a, b, c] = [a, b, c].map(|table| table.eval_ascending(&knots));
-    let segment =
-        |i: usize| segment_3(knots[i + 1] - knots[i], [a[i], a[i + 1]], [b[i], b[i + 1]], [c[i], c[i + 1]]);
+    let segment = |i: usize| segment_3(knots[i + 1] - knots[i], [a[i], a[i + 1]], [b[i], b[i + 1]], [c[i], c[i + 1]]);
     (0..knots.len() - 1).map(segment).sum()
 }
 

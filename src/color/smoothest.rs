@@ -312,8 +312,7 @@ mod tests {
                 let bump = |k: usize, j: usize| math::sin(((seed * 7 + k * 3 + 1) * (j + 1)) as f64);
                 let effect = |k: usize| -> DVec3 { (0..41).map(|j| weights[j] * bump(k, j) * values[j]).sum() };
                 let (a, b, c, d) = (effect(0), effect(1), effect(2), effect(3));
-                let Some(x) = solve_dense([[a.x, b.x, c.x, -d.x], [a.y, b.y, c.y, -d.y], [a.z, b.z, c.z, -d.z]])
-                else {
+                let Some(x) = solve_dense([[a.x, b.x, c.x, -d.x], [a.y, b.y, c.y, -d.y], [a.z, b.z, c.z, -d.z]]) else {
                     continue;
                 };
                 let change =

@@ -29,7 +29,8 @@ pub(super) fn column(text: &str, name: &str) -> Result<PiecewiseLinear> {
                 values.push(number(cell, line)?);
             }
             None => {
-                let error = Error::new(ErrorKind::FileFormat, format!("no cell for {name:?}; expected one in each row"));
+                let error =
+                    Error::new(ErrorKind::FileFormat, format!("no cell for {name:?}; expected one in each row"));
                 return Err(error.at(format!("line {line}")));
             }
         }

@@ -90,11 +90,9 @@ mod tests {
 
     #[test]
     fn blackbodies_have_the_published_chromaticity() {
-        // CIE illuminant A is a Planckian radiator of 2855.5 K (with c2 = 1.4388e-2 m K): x, y = 0.44758, 0.40745.
-        let body = Spectrum::blackbody(2856.0 * 1.435 / 1.438_776_877).unwrap();
-        let close = Spectrum::blackbody(2855.54).unwrap();
-        assert!(body.eval(500.0) < close.eval(500.0));
-        let xy = chromaticity(xyz_of_emission(&close, Observer::cie_1931_2deg()));
+        // CIE illuminant A is a Planckian radiator of 2855.5 K: x, y = 0.44758, 0.40745.
+        let body = Spectrum::blackbody(2855.5).unwrap();
+        let xy = chromaticity(xyz_of_emission(&body, Observer::cie_1931_2deg()));
         assert!((xy[0] - 0.44758).abs() < 1e-4 && (xy[1] - 0.40745).abs() < 1e-4, "{xy:?}");
     }
 
@@ -114,10 +112,7 @@ mod tests {
     fn a_finer_table_of_the_same_function_changes_nothing() {
         let observer = Observer::cie_1931_2deg();
         let coarse = PiecewiseLinear::new(vec![380.0, 520.5, 700.0], vec![0.1, 0.9, 0.2]).unwrap();
-        let knots: Vec<f64> = (0..=3200).map(|i| 380.0 + 0.1 * f64::from(i)).chain([520.5]).collect();
-        let mut knots: Vec<f64> = knots.into_iter().collect();
-        knots.sort_by(f64::total_cmp);
-        knots.dedup_by(|b, a| *b - *a < 1e-9);
+        let knots: Vec<f64> = (0..=640).map(|i| 380.0 + 0.5 * f64::from(i)).collect();
         let fine = PiecewiseLinear::new(knots.clone(), coarse.eval_ascending(&knots)).unwrap();
         let [coarse, fine] = [coarse, fine].map(|t| xyz_of_emission(&Spectrum::PiecewiseLinear(t), observer));
         assert!((coarse - fine).abs().max_element() < 1e-10, "{}", coarse - fine);

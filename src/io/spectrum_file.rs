@@ -125,7 +125,9 @@ impl Samples {
 fn content_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     // "\r\n" is one line break, and so is a lone "\r".
     let lines = text.split('\n').enumerate().flat_map(|(i, line)| line.split('\r').map(move |part| (i + 1, part)));
-    lines.map(|(number, line)| (number, line.split('#').next().unwrap_or_default().trim())).filter(|(_, l)| !l.is_empty())
+    lines
+        .map(|(number, line)| (number, line.split('#').next().unwrap_or_default().trim()))
+        .filter(|(_, l)| !l.is_empty())
 }
 
 fn at_line(number: usize) -> impl Fn(Error) -> Error {
@@ -172,7 +174,8 @@ fn parse_row(fields: &[&str]) -> Result<(f64, f64)> {
 fn parse_pairs(text: &str) -> Result<PiecewiseLinear> {
     let mut samples = Samples::default();
     let mut pending = None;
-    let words = content_lines(text).flat_map(|(line, content)| content.split_whitespace().map(move |word| (line, word)));
+    let words =
+        content_lines(text).flat_map(|(line, content)| content.split_whitespace().map(move |word| (line, word)));
     for (line, word) in words {
         let value = number(word).map_err(at_line(line))?;
         pending = match pending {
@@ -271,7 +274,9 @@ mod tests {
         }
         let expected = "line 2: wavelength 500 without a value; expected pairs of wavelength and value";
         assert_eq!(message("400 1\n500", Format::Pairs), expected);
-        assert!(message(&SPDX.replace("403.1", "399"), Format::Spdx).starts_with("line 7: wavelength 399 nm after 400"));
+        assert!(
+            message(&SPDX.replace("403.1", "399"), Format::Spdx).starts_with("line 7: wavelength 399 nm after 400")
+        );
         assert!(message(&SPDX.replace("0.034", "x"), Format::Spdx).starts_with("line 6: \"x\"; expected a number"));
         assert!(message(&SPDX.replace("wavelength=", "w="), Format::Spdx).contains("expected the attribute"));
         assert!(message("<a>\n<b></a>", Format::Spdx).starts_with("line 2: not XML"));

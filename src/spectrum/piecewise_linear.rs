@@ -42,10 +42,8 @@ impl PiecewiseLinear {
         }
         for (index, (&lambda, &value)) in lambda_nm.iter().zip(&values).enumerate() {
             let before = index.checked_sub(1).map(|i| lambda_nm[i]);
-            check_knot(before, lambda, value).map_err(|e| Error {
-                message: format!("sample {index}: {}", e.message),
-                ..e
-            })?;
+            check_knot(before, lambda, value)
+                .map_err(|e| Error { message: format!("sample {index}: {}", e.message), ..e })?;
         }
         Ok(Self { lambda_nm, values })
     }

@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""Compares abbe with reference packages: `python3 validation/run.py`, from any folder.
+
+Needs Rust and a Python that the packages of requirements.txt support (3.11 to 3.14); this file itself runs with
+Python 3.9 and looks for such a one on the path. The packages go into validation/.venv, which is made once and used again until
+requirements.txt changes. Writes validation/report.md; the exit code is 1 if anything is out of tolerance.
+"""
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent
+ENVIRONMENT = HERE / ".venv"
+REQUIREMENTS = HERE / "requirements.txt"
+PYTHONS = [(3, 14), (3, 13), (3, 12), (3, 11)]  # what colour-science 0.4.7 and numpy 2.4 support
+INSIDE = "ABBE_VALIDATION_INSIDE"
+
+
+def venv_python():
+    return ENVIRONMENT / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+
+
+def find_python():
+    """This interpreter, or another on the path if the packages do not support it."""
+    if sys.version_info[:2] in PYTHONS:
+        return sys.executable
+    for major, minor in PYTHONS:
+        found = shutil.which(f"python{major}.{minor}")
+        if found:
+            return found
+    sys.exit(f"Python {sys.version.split()[0]}; expected 3.11 to 3.14, here or on the path as python3.x")
+
+
+def ensure_environment():
+    """Makes the virtual environment unless the one there was made from the same requirements."""
+    stamp = ENVIRONMENT / "requirements.sha256"
+    digest = hashlib.sha256(REQUIREMENTS.read_bytes()).hexdigest()
+    if venv_python().exists() and stamp.exists() and stamp.read_text().strip() == digest:
+        return
+    print("installing the reference packages into", ENVIRONMENT, flush=True)
+    python = find_python()
+    subprocess.run([python, "-m", "venv", "--clear", str(ENVIRONMENT)], check=True)
+    pip = [str(venv_python()), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    subprocess.run([*pip, "-r", str(REQUIREMENTS)], check=True)
+    stamp.write_text(digest + "\n")
+
+
+def target_folder():
+    # Cargo reads the variable relative to where it is started, which is always ROOT here.
+    return ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
+
+
+def abbe_binary():
+    """The command, built if it is not there."""
+    binary = target_folder() / "release" / ("abbe.exe" if os.name == "nt" else "abbe")
+    if not binary.exists():
+        subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=ROOT, check=True)
+    return binary
+
+
+def color_values(request):
+    """What the crate's colour library answers; the example is brought up to date first."""
+    command = ["cargo", "run", "--release", "--quiet", "--example", "color_values"]
+    done = subprocess.run(command, cwd=ROOT, input=json.dumps(request), stdout=subprocess.PIPE, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def all_rows():
+    import rgb
+    import tables
+    import xyz
+
+    rows = tables.check()
+    values = color_values({**xyz.request(), **rgb.request()})
+    rows += xyz.check(values)
+    rows += rgb.check(values)
+    if (HERE / "glass_check.py").exists():
+        import glass_check
+
+        rows += glass_check.check(abbe_binary())
+    return rows
+
+
+def formatted(rows):
+    """The table as Markdown, which reads well on a terminal too."""
+    lines = [("subject", "cases", "largest error", "tolerance", "verdict")]
+    for subject, cases, error, tolerance, ok in rows:
+        lines.append((subject, str(cases), f"{error:.2g}", f"{tolerance:.2g}", "ok" if ok else "MISS"))
+    widths = [max(len(line[column]) for line in lines) for column in range(5)]
+    text = [" | ".join(cell.ljust(width) for cell, width in zip(line, widths)) for line in lines]
+    text.insert(1, " | ".join("-" * width for width in widths))
+    return "".join(f"| {line} |\n" for line in text)
+
+
+def write_report(table):
+    packages = [line for line in REQUIREMENTS.read_text().split("\n") if line and not line.startswith("#")]
+    head = "# Validation\n\nWritten by `python3 validation/run.py`. References: " + ", ".join(packages) + ".\n\n"
+    (HERE / "report.md").write_text(head + table, encoding="utf-8")
+
+
+def main():
+    if os.environ.get(INSIDE) != "1":
+        ensure_environment()
+        command = [str(venv_python()), str(Path(__file__).resolve())]
+        sys.exit(subprocess.run(command, env={**os.environ, INSIDE: "1", "PYTHONWARNINGS": "ignore"}).returncode)
+    start = time.monotonic()
+    sys.path.insert(0, str(HERE))
+    rows = all_rows()
+    table = formatted(rows)
+    write_report(table)
+    print(table, end="")
+    missed = sum(not row[4] for row in rows)
+    print(f"{len(rows)} subjects, {missed} out of tolerance, {time.monotonic() - start:.0f} s")
+    sys.exit(1 if missed else 0)
+
+
+if __name__ == "__main__":
+    main()
