@@ -519,15 +519,16 @@ pub(super) mod tests {
         for (name, shape) in placed() {
             let (mut rng, bounds) = (Rng::new(8), shape.bounds());
             let rays: Vec<Ray> = (0..2000).map(|_| random_ray(&mut rng, &bounds)).collect();
-            let start = std::time::Instant::now();
-            let (mut hits, mut rounds) = (0, 0);
-            while start.elapsed().as_millis() < 100 {
-                hits += rays.iter().filter(|ray| shape.intersect(ray, f32::INFINITY).is_some()).count();
-                rounds += 1;
-            }
-            let count = (rounds * rays.len()) as f64;
-            let nanoseconds = start.elapsed().as_nanos() as f64 / count;
-            println!("{name:40} {nanoseconds:9.1} ns/ray, {:.0} % hit", 100.0 * hits as f64 / count);
+            let mut hits = 0;
+            let mut round = || {
+                let start = std::time::Instant::now();
+                hits = rays.iter().filter(|ray| shape.intersect(ray, f32::INFINITY).is_some()).count();
+                start.elapsed().as_nanos()
+            };
+            // The shortest of many rounds is the one that nothing else disturbed.
+            let nanoseconds = (0..60).map(|_| round()).min().unwrap_or(0) as f64 / rays.len() as f64;
+            let share = 100.0 * hits as f64 / rays.len() as f64;
+            println!("{name:40} {nanoseconds:9.1} ns/ray, {share:.0} % hit");
         }
     }
 }
