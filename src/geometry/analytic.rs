@@ -62,7 +62,15 @@ enum Placed {
     /// A sphere that is still one in the world.
     Ball(Sphere),
     /// Anything else.
-    Transformed { local: Local, world_from_local: DAffine3, local_from_world: DAffine3 },
+    Transformed(Box<Transformed>),
+}
+
+/// A shape in a space of its own.
+#[derive(Debug, Clone, PartialEq)]
+struct Transformed {
+    local: Local,
+    world_from_local: DAffine3,
+    local_from_world: DAffine3,
 }
 
 /// The shapes in the space where their equation is simplest.
@@ -97,7 +105,7 @@ impl Analytic {
                 let matrix = DMat3::from_diagonal(DVec3::splat(ball.radius));
                 (Local::UnitSphere, DAffine3::from_mat3_translation(matrix, ball.center))
             }
-            AnalyticShape::Disk(disk) => (Local::UnitDisk, disk.from_unit()),
+            AnalyticShape::Disk(disk) => (Local::UnitDisk, disk.object_from_unit()),
             AnalyticShape::Lens(lens) => (Local::Lens(lens), DAffine3::IDENTITY),
             AnalyticShape::Implicit(surface) => (Local::Implicit(surface), DAffine3::IDENTITY),
         };
@@ -109,14 +117,14 @@ impl Analytic {
             return Ok(Self { placed: Placed::Ball(Sphere { center: world_from_local.translation, radius }) });
         }
         let local_from_world = object_from_local.inverse() * local_from_world;
-        Ok(Self { placed: Placed::Transformed { local, world_from_local, local_from_world } })
+        Ok(Self { placed: Placed::Transformed(Box::new(Transformed { local, world_from_local, local_from_world })) })
     }
 
     /// A box around the shape, rounded outward.
     pub fn bounds(&self) -> Aabb {
         let (min, max) = match &self.placed {
             Placed::Ball(ball) => (ball.center - ball.radius, ball.center + ball.radius),
-            Placed::Transformed { local, world_from_local, .. } => local.bounds(world_from_local),
+            Placed::Transformed(shape) => shape.local.bounds(&shape.world_from_local),
         };
         let slack = min.abs().max(max.abs()) * F64_CHAIN;
         Aabb { min: round_down(min - slack), max: round_up(max + slack) }
@@ -124,16 +132,17 @@ impl Analytic {
 
     /// Whether the shape encloses a volume.
     pub fn is_closed(&self) -> bool {
-        !matches!(self.placed, Placed::Transformed { local: Local::UnitDisk, .. })
+        match &self.placed {
+            Placed::Ball(_) => true,
+            Placed::Transformed(shape) => shape.local != Local::UnitDisk,
+        }
     }
 
     /// Whether a point is inside; `false` for a disk.
     pub fn contains(&self, point: DVec3) -> bool {
         match &self.placed {
             Placed::Ball(ball) => point.distance_squared(ball.center) < ball.radius * ball.radius,
-            Placed::Transformed { local, local_from_world, .. } => {
-                local.contains(local_from_world.transform_point3(point))
-            }
+            Placed::Transformed(shape) => shape.local.contains(shape.local_from_world.transform_point3(point)),
         }
     }
 
@@ -144,11 +153,9 @@ impl Analytic {
         let (o, d, t_max) = (ray.origin.as_dvec3(), ray.direction.as_dvec3(), f64::from(t_max));
         match &self.placed {
             Placed::Ball(ball) => intersect_ball(ball, o, d, t_max),
-            Placed::Transformed { local, world_from_local, local_from_world } => {
-                // The direction keeps its length, so that t means the same in both spaces.
-                let (o, d) = (local_from_world.transform_point3(o), local_from_world.transform_vector3(d));
-                let hit = local.intersect(o, d, t_max)?;
-                Some(to_world(local, world_from_local, local_from_world, &hit))
+            Placed::Transformed(shape) => {
+                let (o, d) = shape.line_to_local(o, d);
+                Some(shape.hit_to_world(&shape.local.intersect(o, d, t_max)?))
             }
         }
     }
@@ -159,9 +166,9 @@ impl Analytic {
         let (o, d, t_max) = (ray.origin.as_dvec3(), ray.direction.as_dvec3(), f64::from(t_max));
         match &self.placed {
             Placed::Ball(ball) => sphere::first_crossing(o - ball.center, d, ball.radius, t_max).is_some(),
-            Placed::Transformed { local, local_from_world, .. } => {
-                let (o, d) = (local_from_world.transform_point3(o), local_from_world.transform_vector3(d));
-                local.first_crossing(o, d, t_max)
+            Placed::Transformed(shape) => {
+                let (o, d) = shape.line_to_local(o, d);
+                shape.local.first_crossing(o, d, t_max)
             }
         }
     }
@@ -247,29 +254,36 @@ fn intersect_ball(ball: &Sphere, o: DVec3, d: DVec3, t_max: f64) -> Option<Analy
     Some(AnalyticHit { t, point, normal, error: round_up(error) })
 }
 
-/// Takes a hit to the world. The bound of its error starts from rounding and grows until the points that
-/// [`offset_origin`] makes of it lie on their sides of the exact surface, which covers curvature of any kind.
-fn to_world(local: &Local, world_from_local: &DAffine3, local_from_world: &DAffine3, hit: &LocalHit) -> AnalyticHit {
-    let m = &world_from_local.matrix3;
-    let point = world_from_local.transform_point3(hit.point);
-    let normal = (local_from_world.matrix3.transpose() * hit.normal).normalize();
-    let reach = m.x_axis.abs() + m.y_axis.abs() + m.z_axis.abs();
-    let f64_error = reach * (hit.distance + hit.point.length() * F64_CHAIN) + point.abs() * F64_CHAIN;
-    let mut error = round_up(point.abs() * HALF_ULP + f64_error);
-    let (p, n) = (point.as_vec3(), normal.as_vec3());
-    let side = |direction: Vec3, error: Vec3| {
-        let start = offset_origin(p, error, n, direction);
-        local.side(hit.face, local_from_world.transform_point3(start.as_dvec3()))
-    };
-    let mut doubled = error;
-    for _ in 0..=MAX_DOUBLINGS {
-        if side(n, doubled) > 0.0 && side(-n, doubled) < 0.0 {
-            error = doubled;
-            break;
-        }
-        doubled *= 2.0;
+impl Transformed {
+    /// A ray in local space. The direction keeps its length, so that t means the same in both spaces.
+    fn line_to_local(&self, o: DVec3, d: DVec3) -> (DVec3, DVec3) {
+        (self.local_from_world.transform_point3(o), self.local_from_world.transform_vector3(d))
     }
-    AnalyticHit { t: hit.t, point, normal, error }
+
+    /// Takes a hit to the world. The bound of its error starts from rounding and grows until the points that
+    /// [`offset_origin`] makes of it lie on their sides of the exact surface, which covers curvature of any kind.
+    fn hit_to_world(&self, hit: &LocalHit) -> AnalyticHit {
+        let m = &self.world_from_local.matrix3;
+        let point = self.world_from_local.transform_point3(hit.point);
+        let normal = (self.local_from_world.matrix3.transpose() * hit.normal).normalize();
+        let reach = m.x_axis.abs() + m.y_axis.abs() + m.z_axis.abs();
+        let f64_error = reach * (hit.distance + hit.point.length() * F64_CHAIN) + point.abs() * F64_CHAIN;
+        let mut error = round_up(point.abs() * HALF_ULP + f64_error);
+        let (p, n) = (point.as_vec3(), normal.as_vec3());
+        let side = |direction: Vec3, error: Vec3| {
+            let start = offset_origin(p, error, n, direction).as_dvec3();
+            self.local.side(hit.face, self.local_from_world.transform_point3(start))
+        };
+        let mut doubled = error;
+        for _ in 0..=MAX_DOUBLINGS {
+            if side(n, doubled) > 0.0 && side(-n, doubled) < 0.0 {
+                error = doubled;
+                break;
+            }
+            doubled *= 2.0;
+        }
+        AnalyticHit { t: hit.t, point, normal, error }
+    }
 }
 
 /// The inverse of a transform that has one.
@@ -280,7 +294,7 @@ fn inverse(transform: &DAffine3) -> Result<DAffine3> {
     let inverse = transform.inverse();
     let size = |m: &DMat3| m.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
     let condition = size(&transform.matrix3) * size(&inverse.matrix3);
-    if !inverse.is_finite() || !(condition < MAX_CONDITION) {
+    if !inverse.is_finite() || condition >= MAX_CONDITION {
         let message =
             format!("the transform is singular (condition {condition:.1e}); expected below {MAX_CONDITION:.0e}");
         return Err(Error::new(ErrorKind::Degenerate, message));
