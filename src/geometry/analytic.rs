@@ -62,7 +62,15 @@ enum Placed {
     /// A sphere that is still one in the world.
     Ball(Sphere),
     /// Anything else.
-    Transformed { local: Local, world_from_local: DAffine3, local_from_world: DAffine3 },
+    Transformed(Box<Transformed>),
+}
+
+/// A shape in a space of its own.
+#[derive(Debug, Clone, PartialEq)]
+struct Transformed {
+    local: Local,
+    world_from_local: DAffine3,
+    local_from_world: DAffine3,
 }
 
 /// The shapes in the space where their equation is simplest.
@@ -97,7 +105,7 @@ impl Analytic {
                 let matrix = DMat3::from_diagonal(DVec3::splat(ball.radius));
                 (Local::UnitSphere, DAffine3::from_mat3_translation(matrix, ball.center))
             }
-            AnalyticShape::Disk(disk) => (Local::UnitDisk, disk.from_unit()),
+            AnalyticShape::Disk(disk) => (Local::UnitDisk, disk.object_from_unit()),
             AnalyticShape::Lens(lens) => (Local::Lens(lens), DAffine3::IDENTITY),
             AnalyticShape::Implicit(surface) => (Local::Implicit(surface), DAffine3::IDENTITY),
         };
@@ -109,14 +117,14 @@ impl Analytic {
             return Ok(Self { placed: Placed::Ball(Sphere { center: world_from_local.translation, radius }) });
         }
         let local_from_world = object_from_local.inverse() * local_from_world;
-        Ok(Self { placed: Placed::Transformed { local, world_from_local, local_from_world } })
+        Ok(Self { placed: Placed::Transformed(Box::new(Transformed { local, world_from_local, local_from_world })) })
     }
 
     /// A box around the shape, rounded outward.
     pub fn bounds(&self) -> Aabb {
         let (min, max) = match &self.placed {
             Placed::Ball(ball) => (ball.center - ball.radius, ball.center + ball.radius),
-            Placed::Transformed { local, world_from_local, .. } => local.bounds(world_from_local),
+            Placed::Transformed(shape) => shape.local.bounds(&shape.world_from_local),
         };
         let slack = min.abs().max(max.abs()) * F64_CHAIN;
         Aabb { min: round_down(min - slack), max: round_up(max + slack) }
@@ -124,16 +132,17 @@ impl Analytic {
 
     /// Whether the shape encloses a volume.
     pub fn is_closed(&self) -> bool {
-        !matches!(self.placed, Placed::Transformed { local: Local::UnitDisk, .. })
+        match &self.placed {
+            Placed::Ball(_) => true,
+            Placed::Transformed(shape) => shape.local != Local::UnitDisk,
+        }
     }
 
     /// Whether a point is inside; `false` for a disk.
     pub fn contains(&self, point: DVec3) -> bool {
         match &self.placed {
             Placed::Ball(ball) => point.distance_squared(ball.center) < ball.radius * ball.radius,
-            Placed::Transformed { local, local_from_world, .. } => {
-                local.contains(local_from_world.transform_point3(point))
-            }
+            Placed::Transformed(shape) => shape.local.contains(shape.local_from_world.transform_point3(point)),
         }
     }
 
@@ -144,11 +153,9 @@ impl Analytic {
         let (o, d, t_max) = (ray.origin.as_dvec3(), ray.direction.as_dvec3(), f64::from(t_max));
         match &self.placed {
             Placed::Ball(ball) => intersect_ball(ball, o, d, t_max),
-            Placed::Transformed { local, world_from_local, local_from_world } => {
-                // The direction keeps its length, so that t means the same in both spaces.
-                let (o, d) = (local_from_world.transform_point3(o), local_from_world.transform_vector3(d));
-                let hit = local.intersect(o, d, t_max)?;
-                Some(to_world(local, world_from_local, local_from_world, &hit))
+            Placed::Transformed(shape) => {
+                let (o, d) = shape.line_to_local(o, d);
+                Some(shape.hit_to_world(&shape.local.intersect(o, d, t_max)?))
             }
         }
     }
@@ -159,9 +166,9 @@ impl Analytic {
         let (o, d, t_max) = (ray.origin.as_dvec3(), ray.direction.as_dvec3(), f64::from(t_max));
         match &self.placed {
             Placed::Ball(ball) => sphere::first_crossing(o - ball.center, d, ball.radius, t_max).is_some(),
-            Placed::Transformed { local, local_from_world, .. } => {
-                let (o, d) = (local_from_world.transform_point3(o), local_from_world.transform_vector3(d));
-                local.first_crossing(o, d, t_max)
+            Placed::Transformed(shape) => {
+                let (o, d) = shape.line_to_local(o, d);
+                shape.local.first_crossing(o, d, t_max)
             }
         }
     }
@@ -244,32 +251,39 @@ fn intersect_ball(ball: &Sphere, o: DVec3, d: DVec3, t_max: f64) -> Option<Analy
     let point = ball.center + normal * ball.radius;
     let rounding = point.abs() * HALF_ULP + (ball.center.abs() + ball.radius) * F64_CHAIN;
     let error = rounding + 2.0 * rounding.length_squared() / ball.radius;
-    Some(AnalyticHit { t, point, normal, error: round_up(error) })
+    Some(AnalyticHit { t, point, normal, error: inflated(error) })
 }
 
-/// Takes a hit to the world. The bound of its error starts from rounding and grows until the points that
-/// [`offset_origin`] makes of it lie on their sides of the exact surface, which covers curvature of any kind.
-fn to_world(local: &Local, world_from_local: &DAffine3, local_from_world: &DAffine3, hit: &LocalHit) -> AnalyticHit {
-    let m = &world_from_local.matrix3;
-    let point = world_from_local.transform_point3(hit.point);
-    let normal = (local_from_world.matrix3.transpose() * hit.normal).normalize();
-    let reach = m.x_axis.abs() + m.y_axis.abs() + m.z_axis.abs();
-    let f64_error = reach * (hit.distance + hit.point.length() * F64_CHAIN) + point.abs() * F64_CHAIN;
-    let mut error = round_up(point.abs() * HALF_ULP + f64_error);
-    let (p, n) = (point.as_vec3(), normal.as_vec3());
-    let side = |direction: Vec3, error: Vec3| {
-        let start = offset_origin(p, error, n, direction);
-        local.side(hit.face, local_from_world.transform_point3(start.as_dvec3()))
-    };
-    let mut doubled = error;
-    for _ in 0..=MAX_DOUBLINGS {
-        if side(n, doubled) > 0.0 && side(-n, doubled) < 0.0 {
-            error = doubled;
-            break;
-        }
-        doubled *= 2.0;
+impl Transformed {
+    /// A ray in local space. The direction keeps its length, so that t means the same in both spaces.
+    fn line_to_local(&self, o: DVec3, d: DVec3) -> (DVec3, DVec3) {
+        (self.local_from_world.transform_point3(o), self.local_from_world.transform_vector3(d))
     }
-    AnalyticHit { t: hit.t, point, normal, error }
+
+    /// Takes a hit to the world. The bound of its error starts from rounding and grows until the points that
+    /// [`offset_origin`] makes of it lie on their sides of the exact surface, which covers curvature of any kind.
+    fn hit_to_world(&self, hit: &LocalHit) -> AnalyticHit {
+        let m = &self.world_from_local.matrix3;
+        let point = self.world_from_local.transform_point3(hit.point);
+        let normal = (self.local_from_world.matrix3.transpose() * hit.normal).normalize();
+        let reach = m.x_axis.abs() + m.y_axis.abs() + m.z_axis.abs();
+        let f64_error = reach * (hit.distance + hit.point.length() * F64_CHAIN) + point.abs() * F64_CHAIN;
+        let mut error = inflated(point.abs() * HALF_ULP + f64_error);
+        let (p, n) = (point.as_vec3(), normal.as_vec3());
+        let side = |direction: Vec3, error: Vec3| {
+            let start = offset_origin(p, error, n, direction).as_dvec3();
+            self.local.side(hit.face, self.local_from_world.transform_point3(start))
+        };
+        let mut doubled = error;
+        for _ in 0..=MAX_DOUBLINGS {
+            if side(n, doubled) > 0.0 && side(-n, doubled) < 0.0 {
+                error = doubled;
+                break;
+            }
+            doubled *= 2.0;
+        }
+        AnalyticHit { t: hit.t, point, normal, error }
+    }
 }
 
 /// The inverse of a transform that has one.
@@ -280,7 +294,7 @@ fn inverse(transform: &DAffine3) -> Result<DAffine3> {
     let inverse = transform.inverse();
     let size = |m: &DMat3| m.to_cols_array().into_iter().map(f64::abs).fold(0.0, f64::max);
     let condition = size(&transform.matrix3) * size(&inverse.matrix3);
-    if !inverse.is_finite() || !(condition < MAX_CONDITION) {
+    if !inverse.is_finite() || condition >= MAX_CONDITION {
         let message =
             format!("the transform is singular (condition {condition:.1e}); expected below {MAX_CONDITION:.0e}");
         return Err(Error::new(ErrorKind::Degenerate, message));
@@ -295,6 +309,11 @@ fn similarity(m: &DMat3) -> Option<f64> {
     let square = (gram.x_axis.x + gram.y_axis.y + gram.z_axis.z) / 3.0;
     let difference = (gram - DMat3::from_diagonal(DVec3::splat(square))).to_cols_array();
     difference.into_iter().all(|x| x.abs() <= tolerance * square).then(|| square.sqrt())
+}
+
+/// A bound of non-negative components in f32, up to 2⁻²² larger: cheaper than rounding up exactly.
+fn inflated(bound: DVec3) -> Vec3 {
+    (bound * (1.0 + f64::from(f32::EPSILON)) + f64::from(f32::MIN_POSITIVE)).as_vec3()
 }
 
 fn round_up(v: DVec3) -> Vec3 {
@@ -400,37 +419,63 @@ pub(super) mod tests {
         Ray { origin: origin.as_vec3(), direction: (target - origin).normalize().as_vec3() }
     }
 
-    /// Walks rays through every shape: starts that [`offset_origin`] moved to either side of a hit lie on that side, the
-    /// next hit from outside is an entry and from inside an exit, and rays end outside. No self-hits, no leaks.
+    /// Walks rays through a shape: starts that [`offset_origin`] moved to either side of a hit lie on that side, the next
+    /// hit from outside is an entry and from inside an exit, and rays end outside. No self-hits, no leaks.
+    fn walk(name: &str, shape: &Analytic, hits_wanted: u32) {
+        let mut rng = Rng::new(4);
+        let (bounds, mut hits) = (shape.bounds(), 0);
+        while hits < hits_wanted {
+            let mut ray = random_ray(&mut rng, &bounds);
+            let mut inside = false;
+            while let Some(hit) = shape.intersect(&ray, f32::INFINITY) {
+                hits += 1;
+                let d = ray.direction.as_dvec3();
+                assert_eq!(hit.normal.dot(d) > 0.0, inside, "{name}: {ray:?} {hit:?}");
+                let (p, n) = (hit.point.as_vec3(), hit.normal.as_vec3());
+                assert!((p.as_dvec3() - hit.point).abs().cmple(hit.error.as_dvec3()).all());
+                assert!(!shape.contains(offset_origin(p, hit.error, n, n).as_dvec3()), "{name}: {hit:?}");
+                assert!(shape.contains(offset_origin(p, hit.error, n, -n).as_dvec3()), "{name}: {hit:?}");
+                assert!(bounds.overlaps(&Aabb { min: p, max: p }), "{name}: {p} outside of {bounds:?}");
+                // Reflect now and then, else go on.
+                let mirrored = (d - hit.normal * (2.0 * hit.normal.dot(d))).as_vec3();
+                let turns = rng.uniform() < 0.4;
+                let direction = if turns { mirrored } else { ray.direction };
+                if direction.dot(n).abs() < 1e-6 || hits % 64 == 0 {
+                    inside = false;
+                    break;
+                }
+                inside ^= !turns;
+                ray = Ray { origin: offset_origin(p, hit.error, n, direction), direction };
+            }
+            assert!(!inside, "{name}: a leak along {ray:?}");
+        }
+    }
+
     #[test]
     fn rays_enter_and_leave_in_turn() {
         for (name, shape) in placed().into_iter().filter(|(_, shape)| shape.is_closed()) {
-            let mut rng = Rng::new(4);
-            let (bounds, mut hits) = (shape.bounds(), 0);
-            while hits < 30_000 {
-                let mut ray = random_ray(&mut rng, &bounds);
-                let mut inside = false;
-                while let Some(hit) = shape.intersect(&ray, f32::INFINITY) {
-                    hits += 1;
-                    let d = ray.direction.as_dvec3();
-                    assert_eq!(hit.normal.dot(d) > 0.0, inside, "{name}: {ray:?} {hit:?}");
-                    let (p, n) = (hit.point.as_vec3(), hit.normal.as_vec3());
-                    assert!((p.as_dvec3() - hit.point).abs().cmple(hit.error.as_dvec3()).all());
-                    assert!(!shape.contains(offset_origin(p, hit.error, n, n).as_dvec3()), "{name}: {hit:?}");
-                    assert!(shape.contains(offset_origin(p, hit.error, n, -n).as_dvec3()), "{name}: {hit:?}");
-                    assert!(bounds.overlaps(&Aabb { min: p, max: p }), "{name}: {p} outside of {bounds:?}");
-                    // Reflect now and then, else go on.
-                    let mirrored = (d - hit.normal * (2.0 * hit.normal.dot(d))).as_vec3();
-                    let turns = rng.uniform() < 0.4;
-                    let direction = if turns { mirrored } else { ray.direction };
-                    if direction.dot(n).abs() < 1e-6 || hits % 64 == 0 {
-                        inside = false;
-                        break;
-                    }
-                    inside ^= !turns;
-                    ray = Ray { origin: offset_origin(p, hit.error, n, direction), direction };
-                }
-                assert!(!inside, "{name}: a leak along {ray:?}");
+            walk(&name, &shape, 20_000);
+        }
+    }
+
+    /// The same with 10⁶ hits a shape, and at sizes and proportions near the limits of f32 positions for shapes without
+    /// edges (within rounding error of an edge, a step off one face can pass another).
+    #[test]
+    #[ignore = "takes minutes"]
+    fn rays_enter_and_leave_in_turn_a_million_times() {
+        let far = DAffine3::from_translation(DVec3::new(0.7, -0.5, 0.3));
+        for (name, shape) in placed().into_iter().filter(|(_, shape)| shape.is_closed()) {
+            walk(&name, &shape, 1_000_000);
+        }
+        for (name, shape) in shapes() {
+            if ["disk", "lens", "meniscus", "octahedron", "mixed", "gyroid"].iter().any(|edged| name.contains(edged)) {
+                continue;
+            }
+            let [turn, mirror] = transforms();
+            for scale in [DVec3::splat(1e-3), DVec3::new(1.0, 1e-2, 1.0)] {
+                let world_from_object = far * mirror * turn * DAffine3::from_scale(scale);
+                let shape = Analytic::new(shape.clone(), world_from_object).unwrap();
+                walk(&format!("{name}, {scale}"), &shape, 100_000);
             }
         }
     }
@@ -519,15 +564,16 @@ pub(super) mod tests {
         for (name, shape) in placed() {
             let (mut rng, bounds) = (Rng::new(8), shape.bounds());
             let rays: Vec<Ray> = (0..2000).map(|_| random_ray(&mut rng, &bounds)).collect();
-            let start = std::time::Instant::now();
-            let (mut hits, mut rounds) = (0, 0);
-            while start.elapsed().as_millis() < 100 {
-                hits += rays.iter().filter(|ray| shape.intersect(ray, f32::INFINITY).is_some()).count();
-                rounds += 1;
-            }
-            let count = (rounds * rays.len()) as f64;
-            let nanoseconds = start.elapsed().as_nanos() as f64 / count;
-            println!("{name:40} {nanoseconds:9.1} ns/ray, {:.0} % hit", 100.0 * hits as f64 / count);
+            let mut hits = 0;
+            let mut round = || {
+                let start = std::time::Instant::now();
+                hits = rays.iter().filter(|ray| shape.intersect(ray, f32::INFINITY).is_some()).count();
+                start.elapsed().as_nanos()
+            };
+            // The shortest of many rounds is the one that nothing else disturbed.
+            let nanoseconds = (0..60).map(|_| round()).min().unwrap_or(0) as f64 / rays.len() as f64;
+            let share = 100.0 * hits as f64 / rays.len() as f64;
+            println!("{name:40} {nanoseconds:9.1} ns/ray, {share:.0} % hit");
         }
     }
 }

@@ -29,7 +29,7 @@ impl Disk {
     }
 
     /// Takes the unit disk in z = 0, normal +z, to this one.
-    pub fn from_unit(&self) -> DAffine3 {
+    pub fn object_from_unit(&self) -> DAffine3 {
         let (u, v) = self.normal.any_orthonormal_pair();
         let matrix = DMat3::from_cols(u * self.radius, v * self.radius, self.normal * self.radius);
         DAffine3::from_mat3_translation(matrix, self.center)

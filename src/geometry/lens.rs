@@ -229,7 +229,7 @@ impl Span {
 
     /// The first end in (0, t_max), if the stretch has a length.
     fn first_end(&self, t_max: f64) -> Option<(f64, u8)> {
-        if !(self.t[0] < self.t[1]) {
+        if self.t[0] >= self.t[1] {
             return None;
         }
         let end = usize::from(self.t[0] <= 0.0);

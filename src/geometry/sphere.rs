@@ -34,15 +34,16 @@ impl Sphere {
 /// is within rounding error of the surface [Haines2019].
 pub(super) fn ball_span(o: DVec3, d: DVec3, radius: f64) -> Option<(f64, f64)> {
     let a = d.dot(d);
+    let inverse = 1.0 / a;
     let b = o.dot(d);
-    let perpendicular = o - d * (b / a);
+    let perpendicular = o - d * (b * inverse);
     let discriminant = radius * radius - perpendicular.dot(perpendicular);
-    if !(discriminant > 0.0) {
+    if discriminant <= 0.0 {
         return None;
     }
     let c = o.dot(o) - radius * radius;
     let q = (a * discriminant).sqrt();
-    if b < 0.0 { Some((c / (q - b), (q - b) / a)) } else { Some(((-b - q) / a, -c / (b + q))) }
+    if b < 0.0 { Some((c / (q - b), (q - b) * inverse)) } else { Some(((-b - q) * inverse, -c / (b + q))) }
 }
 
 /// The first t in (0, t_max) at which the line crosses the sphere.

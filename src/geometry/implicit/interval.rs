@@ -122,7 +122,7 @@ impl Number for Interval {
     fn sin_cos(self) -> (Self, Self) {
         use std::f64::consts::{FRAC_PI_2, TAU};
         let whole = Self::new(-1.0, 1.0);
-        if !(self.hi - self.lo < TAU) {
+        if self.hi - self.lo >= TAU {
             return (whole, whole);
         }
         let (sin_lo, cos_lo) = (math::sin(self.lo), math::cos(self.lo));

@@ -383,6 +383,30 @@ mod tests {
     }
 
     #[test]
+    fn a_touch_is_a_miss_and_a_start_on_the_surface_is_no_hit() {
+        let round = Superquadric::new([1.0, 0.5, 1.0], 1.0, 1.0).unwrap();
+        let solids = [
+            (torus(0.75, 0.25), DVec3::new(0.75, 0.25, 0.0)),
+            (Implicit::Superquadric(round), DVec3::new(0.0, 0.5, 0.0)),
+            (Implicit::SmoothUnion(SmoothUnion::new(&[[0.0; 3]], &[0.5], 0.1).unwrap()), DVec3::new(0.0, 0.5, 0.0)),
+        ];
+        for (surface, top) in solids {
+            assert_eq!(surface.value(top), 0.0);
+            for d in [DVec3::X, DVec3::Z, DVec3::new(0.6, 0.0, 0.8)] {
+                assert_eq!(surface.first_crossing(top - d, d, 5.0), None, "{surface:?} {d}");
+                let above = top * (1.0 + 1e-12);
+                assert_eq!(surface.first_crossing(above - d, d, 5.0), None, "{surface:?} {d}");
+                let below = top - DVec3::Y * 1e-12;
+                assert!(surface.first_crossing(below - d, d, 5.0).is_some(), "{surface:?} {d}");
+            }
+            for d in [DVec3::Y, DVec3::new(0.6, 0.8, 0.0)] {
+                assert_eq!(surface.first_crossing(top, d, 5.0), None, "{surface:?}");
+                assert!(surface.first_crossing(top, -d, 5.0).unwrap() > 0.1, "{surface:?}");
+            }
+        }
+    }
+
+    #[test]
     fn bounds_hold_the_solid_and_touch_it() {
         for (surface, slack) in [
             (torus(0.7, 0.2), 1e-9),

@@ -36,6 +36,10 @@ pub trait Differentiable: Number {
     fn max_slope(self, other: Self) -> Self;
     /// Derivative of the p-norm of (a, b) by a.
     fn norm_slope(self, other: Self, p: f64) -> Self;
+    /// The p-norm of (a, b) and its derivatives by a and by b.
+    fn norm_and_slopes(self, other: Self, p: f64) -> (Self, Self, Self) {
+        (self.norm(other, p), self.norm_slope(other, p), other.norm_slope(self, p))
+    }
     /// Derivative of the smooth minimum by a; that by b is 1 minus it.
     fn smooth_min_slope(self, other: Self, width: f64) -> Self;
 }
@@ -115,6 +119,21 @@ impl Differentiable for f64 {
             math::pow(1.0 + math::pow(b / a, p), (1.0 - p) / p)
         };
         slope.copysign(self)
+    }
+
+    /// With r the ratio of the smaller to the larger and s = 1 + rᵖ, everything follows from rᵖ and s^(1/p).
+    fn norm_and_slopes(self, other: Self, p: f64) -> (Self, Self, Self) {
+        if p == 1.0 || p == 2.0 || (self == 0.0 && other == 0.0) {
+            return (self.norm(other, p), self.norm_slope(other, p), other.norm_slope(self, p));
+        }
+        let (a, b) = (f64::abs(self), f64::abs(other));
+        let (large, ratio) = (a.max(b), a.min(b) / a.max(b));
+        let power = math::pow(ratio, p);
+        let root = math::pow(1.0 + power, 1.0 / p);
+        let large_slope = root / (1.0 + power);
+        let small_slope = if ratio > 0.0 { power / ratio * large_slope } else { 0.0 };
+        let (slope_a, slope_b) = if a >= b { (large_slope, small_slope) } else { (small_slope, large_slope) };
+        (large * root, slope_a.copysign(self), slope_b.copysign(other))
     }
 
     fn smooth_min_slope(self, other: Self, width: f64) -> Self {
@@ -200,9 +219,8 @@ impl<T: Differentiable> Number for Dual<T> {
     }
 
     fn norm(self, other: Self, p: f64) -> Self {
-        let slope =
-            self.slope * self.value.norm_slope(other.value, p) + other.slope * other.value.norm_slope(self.value, p);
-        Self { value: self.value.norm(other.value, p), slope }
+        let (value, by_self, by_other) = self.value.norm_and_slopes(other.value, p);
+        Self { value, slope: self.slope * by_self + other.slope * by_other }
     }
 
     fn smooth_min(self, other: Self, width: f64) -> Self {
@@ -251,6 +269,16 @@ mod tests {
             prop_assert!(smooth <= a.min(b) && smooth >= a.min(b) - k / 6.0 - 1e-15);
             if (a - b).abs() >= k { prop_assert_eq!(smooth, a.min(b)); }
             prop_assert_eq!(smooth, b.smooth_min(a, k));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn norm_slopes_agree_with_their_own_formula(a in -2.0..2.0f64, b in prop_oneof![Just(0.0), -2.0..2.0f64], p in prop_oneof![Just(1.0), Just(2.0), 1.0..20.0f64]) {
+            let (value, by_a, by_b) = a.norm_and_slopes(b, p);
+            for (x, y) in [(value, a.norm(b, p)), (by_a, a.norm_slope(b, p)), (by_b, b.norm_slope(a, p))] {
+                prop_assert!((x - y).abs() < 1e-14, "{x} {y}");
+            }
         }
     }
 

@@ -8,6 +8,8 @@ use super::number::{Dual, Number};
 
 /// A function of space: negative inside the solid, positive outside, continuous, with bounded slopes.
 pub trait Field {
+    /// Whether it is convex (along every line), which makes Newton's method alone safe.
+    const CONVEX: bool = false;
     /// Its value; written once for points, intervals and derivatives.
     fn value<N: Number>(&self, p: [N; 3]) -> N;
 }
@@ -24,6 +26,9 @@ pub(super) struct Line {
 const MAX_PIECES: u32 = 1 << 14;
 /// Deepest subdivision: 2⁻⁶⁰ of the range is below the spacing of its numbers.
 const MAX_DEPTH: usize = 60;
+/// Values and slopes relative to the function's range below which rounding error is looked at: far above f64's, far below
+/// what a ray meets often.
+const NEARLY_ZERO: f64 = 1.0 / (1u64 << 24) as f64;
 /// Newton steps before plain bisection takes over.
 const NEWTON_STEPS: u32 = 8;
 /// Steps in all: each bisection halves the bracket, and 53 of them reach the spacing of f64.
@@ -81,6 +86,9 @@ struct End {
 /// is monotone, or cannot reach 0 from its ends with the slopes enclosed, or is no wider than its rounding error.
 /// Otherwise it is halved. A settled piece holds a root just if its ends differ in sign.
 pub(super) fn first_root<F: Field>(field: &F, line: &Line, t0: f64, t1: f64) -> Option<f64> {
+    if F::CONVEX {
+        return first_root_of_convex(field, line, t0, t1);
+    }
     let end = |t: f64| End { t, value: line.certain_value(field, t) };
     let mut left = end(t0);
     let mut certain = left;
@@ -107,6 +115,51 @@ pub(super) fn first_root<F: Field>(field: &F, line: &Line, t0: f64, t1: f64) -> 
         }
         left = right;
         depth -= 1;
+    }
+    None
+}
+
+/// The first root of a convex function of about unit slope over the range: the entry if the line starts outside, else the
+/// exit. A start within rounding error of the surface counts as lying on the side that the ray goes to.
+fn first_root_of_convex<F: Field>(field: &F, line: &Line, t0: f64, t1: f64) -> Option<f64> {
+    let start = line.value(field, t0);
+    let uncertain = start.value.abs() < NEARLY_ZERO && line.certain_value(field, t0).sign() == 0;
+    let outside = if uncertain { start.slope > 0.0 } else { start.value > 0.0 };
+    let exit = || root_seen_from(field, line, t1, (t0, t1));
+    if !outside {
+        return exit().map(|(t, _)| t);
+    }
+    let (entry, slope) = root_seen_from(field, line, t0, (t0, t1))?;
+    // Nearly a touch: a hit only if the function is negative for certain midway to the exit.
+    if slope.abs() * (t1 - t0) < NEARLY_ZERO
+        && let Some((exit, _)) = exit()
+        && line.certain_value(field, 0.5 * (entry + exit)).sign() >= 0
+    {
+        return None;
+    }
+    Some(entry)
+}
+
+/// The root of a convex function nearest to `from`, an end of the range at which it is positive, and the slope there.
+/// Newton's method never steps past it, for a convex function lies above its tangents; where the slope points away from
+/// the range there is none.
+fn root_seen_from<F: Field>(field: &F, line: &Line, from: f64, (t0, t1): (f64, f64)) -> Option<(f64, f64)> {
+    let forward = from == t0;
+    let mut t = from;
+    for _ in 0..MAX_STEPS {
+        let Dual { value, slope } = line.value(field, t);
+        if value <= 0.0 {
+            // Reached to the last bit; or the whole range is inside.
+            return (t != from).then_some((t, slope));
+        }
+        let next = t - value / slope;
+        if (slope < 0.0) != forward || !(t0..=t1).contains(&next) {
+            return None;
+        }
+        if (next - t).abs() <= f64::EPSILON * t.abs() {
+            return Some((next, slope));
+        }
+        t = next;
     }
     None
 }

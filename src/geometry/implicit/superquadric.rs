@@ -50,6 +50,9 @@ impl Superquadric {
 }
 
 impl Field for Superquadric {
+    /// Norms are convex, and the outer one grows with the inner one.
+    const CONVEX: bool = true;
+
     fn value<N: Number>(&self, [x, y, z]: [N; 3]) -> N {
         let s = self.scale;
         let belt = x.scale(s.x).norm(z.scale(s.z), self.power_xz);

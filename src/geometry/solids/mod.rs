@@ -37,18 +37,18 @@ pub(super) mod tests {
     use std::collections::HashMap;
 
     impl TriangleSoup {
-        pub fn normal(&self, triangle: [u32; 3]) -> DVec3 {
+        pub(crate) fn normal(&self, triangle: [u32; 3]) -> DVec3 {
             let [a, b, c] = triangle.map(|i| self.positions[i as usize]);
             (b - a).cross(c - a)
         }
 
-        pub fn volume(&self) -> f64 {
+        pub(crate) fn volume(&self) -> f64 {
             let sixth = |t: &[u32; 3]| self.normal(*t).dot(self.positions[t[0] as usize]) / 6.0;
             self.indices.iter().map(sixth).sum()
         }
 
         /// Number of different facet planes.
-        pub fn facet_count(&self) -> usize {
+        pub(crate) fn facet_count(&self) -> usize {
             let mut normals: Vec<DVec3> = Vec::new();
             for triangle in &self.indices {
                 let n = self.normal(*triangle).normalize();

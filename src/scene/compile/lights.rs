@@ -187,7 +187,7 @@ fn area_light(object: &ObjectDescription, source: &Source, geometry: &Geometry) 
         Source::Triangles(range) => triangle_light(&object.shape, range.clone(), geometry),
         Source::Analytic(AnalyticShape::Sphere(sphere), transform) => sphere_light(sphere.center, sphere.radius, transform),
         Source::Analytic(AnalyticShape::Disk(disk), transform) => {
-            let placed = *transform * disk.from_unit();
+            let placed = *transform * disk.object_from_unit();
             let (u, v) = (placed.matrix3.x_axis, placed.matrix3.y_axis);
             // Mirrored, the front stays where the shape's normal goes.
             let v = if transform.matrix3.determinant() < 0.0 { -v } else { v };

@@ -396,20 +396,20 @@ pub enum ImplicitDescription {
     },
     /// (|x/a|^(2/e₂) + |z/c|^(2/e₂))^(e₂/e₁) + |y/b|^(2/e₁) = 1.
     Superquadric {
-        /// Half axes a, b, c.
+        /// Half axes a, b, c, metres.
         radii: [f64; 3],
-        /// e₁: north–south; 1 is round, towards 0 is boxy.
+        /// e₁: north–south, in [0.1, 2]; 1 is round, small is boxy, 2 is octahedral.
         exponent_y: f64,
-        /// e₂: east–west.
+        /// e₂: east–west, in [0.1, 2].
         exponent_xz: f64,
     },
     /// A gyroid wall of the given thickness, cut by a sphere about the origin.
     Gyroid {
         /// Period of the surface, metres.
         period: f64,
-        /// Wall thickness, metres (measured where the gradient is largest).
+        /// Wall thickness, metres (to first order, where the gradient is largest and the wall thinnest), < period / 4.
         thickness: f64,
-        /// Radius of the sphere that cuts it.
+        /// Radius of the sphere that cuts it, metres, ≤ 100 periods.
         radius: f64,
     },
     /// Spheres melted into each other.
@@ -418,14 +418,14 @@ pub enum ImplicitDescription {
         centers: Vec<[f64; 3]>,
         /// Radii, one a centre.
         radii: Vec<f64>,
-        /// Width of the blend, metres.
+        /// Width of the blend, metres, ≥ 0.
         blend: f64,
     },
     /// A quartic "tangle cube": x⁴ − 5x² + y⁴ − 5y² + z⁴ − 5z² + level = 0 in units of `size`.
     Tanglecube {
         /// Length of one unit, metres.
         size: f64,
-        /// The constant term; 11.8 by default.
+        /// The constant term, in [−100, 18.75); 11.8 by default.
         level: f64,
     },
 }
