@@ -16,6 +16,9 @@ pub struct Mesh {
     pub uvs: Vec<DVec2>,
 }
 
+/// What tells vertices apart: position, normal, texture coordinate.
+type VertexKey = ([u64; 3], Option<[u64; 3]>, Option<[u64; 2]>);
+
 /// The bits that equal positions share: −0 counts as 0.
 fn position_key(position: DVec3) -> [u64; 3] {
     position.to_array().map(|x| (x + 0.0).to_bits())
@@ -36,7 +39,7 @@ impl Mesh {
     /// Triangles keep their order and winding; indices have to be in range.
     pub fn weld(&mut self) {
         let mut welded = Mesh { indices: Vec::with_capacity(self.indices.len()), ..Mesh::default() };
-        let mut numbers: HashMap<([u64; 3], Option<[u64; 3]>, Option<[u64; 2]>), u32> = HashMap::new();
+        let mut numbers: HashMap<VertexKey, u32> = HashMap::new();
         for triangle in &self.indices {
             let corners = triangle.map(|corner| {
                 let vertex = corner as usize;

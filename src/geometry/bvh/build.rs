@@ -8,7 +8,7 @@ use rayon::prelude::*;
 /// Bins per axis.
 const BINS: usize = 16;
 /// Triangles that are not worth splitting further; the second half joins them to packets.
-const SMALL: usize = 2;
+const SMALL: usize = 4;
 /// Ranges longer than this are built by two tasks.
 const PARALLEL: usize = 4096;
 /// Binning of ranges longer than this is itself cut in pieces of this length.
@@ -60,7 +60,7 @@ pub(super) fn build(items: &mut [Item], first: usize, depth: u32) -> Subtree {
         [build(left, first, depth + 1), build(right, first + middle, depth + 1)]
     };
     let bounds = children[0].bounds.union(children[1].bounds);
-    let packable = count <= super::node::WIDTH && children.iter().all(only_triangles);
+    let packable = count <= super::node::PACKET && children.iter().all(only_triangles);
     let only_triangles = children.iter().all(only_triangles);
     let plan = Plan::inner(&bounds, &children[0].plan, &children[1].plan, packable, only_triangles);
     Subtree { bounds, first, count, plan, children: Some(Box::new(children)) }

@@ -51,7 +51,7 @@ impl Plan {
         plan.cost[1] = inner_cost;
         if packable {
             let packet_cost = bounds.half_area() * PACKET_COST;
-            plan.leaf = !(inner_cost < packet_cost);
+            plan.leaf = packet_cost <= inner_cost;
             plan.cost[1] = inner_cost.min(packet_cost);
         }
         for children in 2..WIDTH {

@@ -16,7 +16,7 @@ use super::triangle::double_area_vector;
 use super::{Aabb, Ray};
 use build::Item;
 use glam::Vec3;
-use node::{Node, Packet, RayLanes, Reference, Target, WIDTH};
+use node::{Node, PACKET, Packet, RayLanes, Reference, Target, WIDTH};
 
 /// Boxes grow by this share of the largest coordinate: the rounding of a vertex relative to a ray's origin (12u), so
 /// that a ray that the rounded triangle takes is not lost at its box. Holds for origins up to twice as far out.
@@ -150,10 +150,12 @@ impl Bvh {
         t_max: f32,
         analytic: impl FnMut(u32, f32) -> Option<f32>,
     ) -> Option<Nearest> {
-        match self.stack_entries {
-            0..=SMALL_STACK => self.traverse::<SMALL_STACK, ANY>(ray, t_max, analytic),
-            0..=MEDIUM_STACK => self.traverse::<MEDIUM_STACK, ANY>(ray, t_max, analytic),
-            _ => self.traverse::<LARGE_STACK, ANY>(ray, t_max, analytic),
+        if self.stack_entries <= SMALL_STACK {
+            self.traverse::<SMALL_STACK, ANY>(ray, t_max, analytic)
+        } else if self.stack_entries <= MEDIUM_STACK {
+            self.traverse::<MEDIUM_STACK, ANY>(ray, t_max, analytic)
+        } else {
+            self.traverse::<LARGE_STACK, ANY>(ray, t_max, analytic)
         }
     }
 
@@ -184,7 +186,7 @@ impl Bvh {
                     let (t, mut hits) = packet.intersect(&lanes, nearest.t);
                     let t = t.to_array();
                     while hits != 0 {
-                        let lane = hits.trailing_zeros() as usize % WIDTH;
+                        let lane = hits.trailing_zeros() as usize % PACKET;
                         hits &= hits - 1;
                         nearest.offer(t[lane], packet.triangles[lane]);
                     }

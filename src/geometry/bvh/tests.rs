@@ -285,6 +285,21 @@ fn rays_in_the_plane_of_a_flat_tree_are_not_lost() {
     assert_eq!(closest(&bvh, &ray).map(|hit| hit.1), Some(1.0));
 }
 
+#[test]
+fn hits_have_these_bits_on_every_machine() {
+    let mut random = Random(6);
+    let soup = Soup::random(400, 0.3, &mut random);
+    let bvh = soup.bvh();
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    for _ in 0..5000 {
+        let (origin, target) = (random.point(), random.point());
+        let hit = closest(&bvh, &Ray { origin, direction: target - origin });
+        let (id, t) = hit.map_or((u32::MAX, 0), |(id, t)| (id, t.to_bits()));
+        hash = (hash ^ (u64::from(id) << 32 | u64::from(t))).wrapping_mul(0x0100_0000_01b3);
+    }
+    assert_eq!(hash, 0x3e54_ba32_c069_6846, "{hash:#x}");
+}
+
 /// Every bit of the tree.
 fn bits(bvh: &Bvh) -> String {
     format!("{bvh:?}")
@@ -370,6 +385,26 @@ fn a_tree_that_wants_to_be_deep_is_bounded() {
     let bvh = soup.bvh();
     assert_eq!(bvh.validate().len(), 2000);
     assert!(bvh.stack_entries <= LARGE_STACK);
+}
+
+fn with_negative_zeros(v: Vec3) -> Vec3 {
+    Vec3::from_array(v.to_array().map(|x| if x == 0.0 { -0.0 } else { x }))
+}
+
+#[test]
+fn a_plane_through_the_origin_does_not_constrain() {
+    let unit = Aabb { min: Vec3::ZERO, max: Vec3::ONE };
+    let node = Node::new(&[(unit, Reference::analytic(0))]);
+    for (origin, direction) in [(Vec3::ZERO, Vec3::X), (Vec3::ONE, -Vec3::Y), (Vec3::new(0.0, 1.0, -3.0), Vec3::Z)] {
+        for ray in [Ray { origin, direction }, Ray { origin, direction: with_negative_zeros(direction) }] {
+            let lanes = RayLanes::new(&ray).expect("a ray");
+            assert_eq!(node.intersect(&lanes, f32::INFINITY).1, 1, "{ray:?}");
+        }
+    }
+    for origin in [Vec3::new(0.5, 1.5, 0.5), Vec3::new(0.5, 0.5, -1e-30), Vec3::new(2.0, 0.5, 0.5)] {
+        let lanes = RayLanes::new(&Ray { origin, direction: Vec3::X }).expect("a ray");
+        assert_eq!(node.intersect(&lanes, f32::INFINITY).1, 0, "{origin}");
+    }
 }
 
 #[test]
