@@ -100,12 +100,9 @@ impl Dielectric {
                 parts_lanes: dispersive,
             },
             // Chosen to refract, but this hero is reflected totally: its path ends, the other heroes stand for the rest.
-            None if u >= q => DielectricSample {
-                direction,
-                weight: SampledSpectrum::ZERO,
-                refracted: true,
-                parts_lanes: dispersive,
-            },
+            None if u >= q => {
+                DielectricSample { direction, weight: SampledSpectrum::ZERO, refracted: true, parts_lanes: dispersive }
+            }
             _ => DielectricSample {
                 direction: optics::reflect(d, normal).as_vec3(),
                 weight: reflectance * (1.0 / q),

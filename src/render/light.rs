@@ -6,7 +6,7 @@ use super::{Techniques, bounce};
 use crate::bsdf::{Bsdf, Lanes};
 use crate::film::{Filter, Sensor, Splat};
 use crate::geometry::{Frame, Ray, offset_origin};
-use crate::sampling::{Draw, Sobol};
+use crate::sampling::{Draw, Sobol, balance_heuristic};
 use crate::scene::{Emission, Light, LightKind, Material, Scene, Surface};
 use crate::spectrum::{LANES, SampledSpectrum};
 use glam::Vec3;
@@ -29,7 +29,8 @@ pub struct LightTracer<'a> {
 /// One light path's view of the film.
 struct Target<'a> {
     tracer: &'a LightTracer<'a>,
-    light: u32,
+    /// Density of light paths where camera paths could find the same; see [`Techniques::light_path_density`].
+    density: Option<f32>,
     /// Power of the path in each lane, before any scattering.
     power: SampledSpectrum,
     weights: [SampledSpectrum; 3],
@@ -52,7 +53,8 @@ impl LightTracer<'_> {
         let Some(Draw { index: light_index, probability, .. }) = table.sample(u[5]) else { return };
         let light = &scene.lights[light_index];
         let wavelengths = light.wavelengths.sample(u[2]);
-        let Some(emission) = light.emit(scene, [u[0], u[1]], [u[3], u[4]]) else { return };
+        let aim = if self.caustics_only() { scene.caustic_aim } else { None }.unwrap_or(scene.everything());
+        let Some(emission) = light.emit(scene, &aim, [u[0], u[1]], [u[3], u[4]]) else { return };
         workspace.spectra.begin(wavelengths);
         let hero = (u[6] * LANES as f32) as usize;
 
@@ -73,7 +75,7 @@ impl LightTracer<'_> {
         };
         let mut target = Target {
             tracer: self,
-            light: light_index as u32,
+            density: self.techniques.light_path_density(scene, light_index as u32, &emission.exit()),
             power: spectrum * (emission.weight / probability),
             weights: self.sensor.weights(&wavelengths),
             splats,
@@ -156,8 +158,8 @@ impl Target<'_> {
             return;
         }
         let Some(transmittance) = walk.visibility::<INTERIORS>(surface, wi, Some(seen.lens)) else { return };
-        let density = camera_density(scene, surface, wi);
-        let weight = self.tracer.techniques.light_path_weight(scene, self.light, density);
+        let camera = camera_density(scene, surface, wi);
+        let weight = self.density.map_or(1.0, |light| balance_heuristic(light, camera));
         let radiance = self.power * walk.throughput * reflected * transmittance;
         self.deposit(seen.film, radiance * (adjoint(frame, wo, wi) * weight * seen.importance));
     }

@@ -10,14 +10,15 @@ pub use workspace::Counters;
 
 use crate::bsdf::{Bsdf, BsdfSample, Lanes};
 use crate::color::Observer;
-use crate::film::{CAMERA_REPLICATES, Film, Filter, LIGHT_REPLICATES, PixelSums, Sensor, Splat};
+use crate::film::{CAMERA_REPLICATES, Film, LIGHT_REPLICATES, PixelSums, Sensor, Splat};
 use crate::geometry::Frame;
-use crate::sampling::{Sobol, balance_heuristic, mix};
-use crate::scene::{FilmSettings, Integrator, Light, RenderSettings, Scene, SceneFeatures, Surface};
+use crate::sampling::{Sobol, mix};
+use crate::scene::{Exit, FilmSettings, Integrator, RenderSettings, Scene, SceneFeatures, Surface};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, LANES, SampledSpectrum, Wavelengths};
 use light::LightTracer;
 use rayon::prelude::*;
 use std::f32::consts::FRAC_1_PI;
+use std::time::Instant;
 use walk::Walk;
 use workspace::Workspace;
 
@@ -65,8 +66,8 @@ const TILE: u32 = 16;
 const BLOCK: u64 = 4096;
 /// Blocks that are traced before their splats go to the film, in order.
 const BLOCKS_AT_ONCE: u64 = 64;
-/// Camera paths in a pass, roughly: passes are how often progress is told and interruption looked for.
-const PATHS_PER_PASS: u64 = 1 << 21;
+/// Seconds that a pass should take: passes are how often progress is told and interruption looked for.
+const SECONDS_PER_PASS: f64 = 0.3;
 
 /// Renders a scene. `proceed` is called between passes and stops the render by returning `false`; what has been done by
 /// then is a picture of fewer samples.
@@ -123,7 +124,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         let pixels = self.scene.camera.pixels();
         let (mut done, total) = (0, self.settings.samples_per_pixel);
         let mut light_paths = 0;
-        let at_once = (PATHS_PER_PASS / pixels).max(1);
+        let (mut at_once, mut started) = (1, Instant::now());
         while done < total {
             let next = (done + at_once).min(total);
             if self.techniques != Techniques::Light {
@@ -138,6 +139,10 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             if !proceed(Progress { samples: done, of: total, rays: statistics.counters.rays }) {
                 break;
             }
+            // The length of a pass changes no bit: it only decides when to look up.
+            let growth = SECONDS_PER_PASS / started.elapsed().as_secs_f64().max(1e-3);
+            at_once = ((at_once as f64 * growth.clamp(0.25, 4.0)) as u64).max(1);
+            started = Instant::now();
         }
         statistics.camera_paths = film.camera_paths();
         statistics.light_paths = film.light_paths();
@@ -279,9 +284,8 @@ fn tile_pixels(tile: u32, width: u32, height: u32) -> impl Iterator<Item = u32> 
 /// The CIE 1931 observer.
 fn standard_sensor() -> Sensor {
     let observer = Observer::cie_1931_2deg();
-    let matching: Vec<[f64; 3]> = (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32)
-        .map(|l| observer.eval(f64::from(l)).to_array())
-        .collect();
+    let matching: Vec<[f64; 3]> =
+        (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(|l| observer.eval(f64::from(l)).to_array()).collect();
     Sensor::new(LAMBDA_MIN_NM, &matching)
 }
 
@@ -298,23 +302,17 @@ impl Techniques {
     /// Density of light paths per unit area at a diffuse surface seen by the camera, relative to one camera path, after
     /// division by the Lambertian density 1/π that both directions of such a path share. `None` if no light path
     /// starts from this light, or it has no extent that camera paths could meet.
-    fn light_path_density(&self, scene: &Scene, index: u32, light: &Light) -> Option<f32> {
-        let Self::CameraAndLight { light_paths_per_camera_path } = self else { return None };
-        let drawn = scene.caustic_table.probability(index as usize) * light_paths_per_camera_path;
-        let density = light.emission_density()?;
+    ///
+    /// A path of camera, diffuse surfaces, a chain of specular ones and light is found from both ends. Its densities per
+    /// unit of étendue differ in their first step alone: the camera's density per area times 1/π, against the light's
+    /// density of point and direction. Everything between is shared (for specular vertices étendue is conserved, and
+    /// reflection is chosen with the same probability both ways), so the ratio needs no bookkeeping along the path.
+    fn light_path_density(&self, scene: &Scene, light: u32, exit: &Exit) -> Option<f32> {
+        let (Self::CameraAndLight { light_paths_per_camera_path }, Some(aim)) = (self, &scene.caustic_aim) else {
+            return None;
+        };
+        let drawn = scene.caustic_table.probability(light as usize) * light_paths_per_camera_path;
+        let density = scene.lights[light as usize].emission_density(exit, aim)?;
         (drawn > 0.0).then(|| drawn * density / FRAC_1_PI)
-    }
-
-    /// Weight of a camera path that ran into a light through glass or mirrors from a diffuse surface that the camera
-    /// reaches directly with this density.
-    fn camera_path_weight(&self, scene: &Scene, index: u32, camera_density: f32) -> f32 {
-        let light_paths = self.light_path_density(scene, index, &scene.lights[index as usize]);
-        light_paths.map_or(1.0, |light_paths| balance_heuristic(camera_density, light_paths))
-    }
-
-    /// Weight of the same path when found from the light.
-    fn light_path_weight(&self, scene: &Scene, index: u32, camera_density: f32) -> f32 {
-        let light_paths = self.light_path_density(scene, index, &scene.lights[index as usize]);
-        light_paths.map_or(1.0, |light_paths| balance_heuristic(light_paths, camera_density))
     }
 }

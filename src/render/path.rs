@@ -5,7 +5,7 @@ use super::{Techniques, bounce};
 use crate::bsdf::{Bsdf, Indices};
 use crate::geometry::Frame;
 use crate::sampling::balance_heuristic;
-use crate::scene::{LightSample, Material, Scene, Surface};
+use crate::scene::{Exit, LightSample, Material, Scene, Surface};
 use crate::spectrum::SampledSpectrum;
 use glam::Vec3;
 
@@ -135,7 +135,8 @@ fn escaped<const INTERIORS: bool>(
     for &index in &scene.infinite_lights {
         let light = &scene.lights[index as usize];
         let Some((factor, pdf)) = light.escaped(walk.ray.direction) else { continue };
-        let weight = hit_weight(scene, techniques, index, origin, |_| pdf);
+        let exit = Exit { point: walk.ray.origin, cos: 1.0 };
+        let weight = hit_weight(scene, techniques, index, origin, &exit, |_| pdf);
         radiance += walk.workspace.spectra.spectrum(scene, light.spectrum) * (factor * weight);
     }
     if radiance.is_zero() {
@@ -159,7 +160,9 @@ fn emitted<const INTERIORS: bool>(
         return SampledSpectrum::ZERO;
     }
     let direction = walk.ray.direction;
-    let weight = hit_weight(scene, techniques, index, origin, |from| light.pdf_surface(from, direction, surface));
+    let exit = Exit { point: surface.point, cos: surface.geometric.as_vec3().dot(direction).abs() };
+    let weight =
+        hit_weight(scene, techniques, index, origin, &exit, |from| light.pdf_surface(from, direction, surface));
     let emission = walk.workspace.spectra.spectrum(scene, light.spectrum);
     emission * walk.throughput * weight * radiance_ratio::<INTERIORS>(walk, camera)
 }
@@ -170,13 +173,16 @@ fn hit_weight(
     techniques: &Techniques,
     index: u32,
     origin: Origin,
+    exit: &Exit,
     light_pdf: impl Fn(Vec3) -> f32,
 ) -> f32 {
     match origin {
         Origin::Scattered { from, pdf, .. } => {
             balance_heuristic(pdf, scene.light_table.probability(index as usize) * light_pdf(from))
         }
-        Origin::Delta { first_diffuse: Some(density) } => techniques.camera_path_weight(scene, index, density),
+        Origin::Delta { first_diffuse: Some(camera) } => {
+            techniques.light_path_density(scene, index, exit).map_or(1.0, |light| balance_heuristic(camera, light))
+        }
         Origin::Delta { first_diffuse: None } => 1.0,
     }
 }

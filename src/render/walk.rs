@@ -164,12 +164,7 @@ impl Walk<'_> {
         self.visibility_through_media(ray, limit, target)
     }
 
-    fn visibility_through_media(
-        &mut self,
-        mut ray: Ray,
-        limit: f32,
-        target: Option<Vec3>,
-    ) -> Option<SampledSpectrum> {
+    fn visibility_through_media(&mut self, mut ray: Ray, limit: f32, target: Option<Vec3>) -> Option<SampledSpectrum> {
         let Workspace { spectra, interiors, shadow_interiors, counters } = &mut *self.workspace;
         shadow_interiors.copy_from(interiors);
         let mut transmittance = SampledSpectrum::ONE;
@@ -177,7 +172,8 @@ impl Walk<'_> {
             counters.rays += 1;
             let hit = self.scene.closest(&ray, limit);
             let medium = shadow_interiors.medium(self.scene);
-            let distance = hit.map_or(if target.is_some() { 1.0 } else { f32::INFINITY }, |h| h.t) * ray.direction.length();
+            let distance =
+                hit.map_or(if target.is_some() { 1.0 } else { f32::INFINITY }, |h| h.t) * ray.direction.length();
             if let Some(absorption) = medium.and_then(|m| self.scene.media[m.0 as usize].absorption) {
                 transmittance *= optics::transmittance(spectra.spectrum(self.scene, absorption), distance);
             }

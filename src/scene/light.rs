@@ -55,8 +55,6 @@ pub enum LightKind {
         direction: Vec3,
         /// 1 − cos of the disc's angular radius.
         one_minus_cos: f32,
-        /// What light paths are aimed at: a disc that shades all that matters.
-        target: (Vec3, f32),
     },
     /// Parallel light through a disc.
     Beam {
@@ -149,6 +147,23 @@ pub struct Emission {
     pub weight: f32,
 }
 
+/// How light leaves a light: what the density of light paths depends on.
+#[derive(Debug, Clone, Copy)]
+pub struct Exit {
+    /// Where.
+    pub point: Vec3,
+    /// Cosine to the light's normal; 1 off surfaces.
+    pub cos: f32,
+}
+
+impl Emission {
+    /// How the path leaves its light.
+    pub fn exit(&self) -> Exit {
+        let cos = if self.start.normal == Vec3::ZERO { 1.0 } else { self.start.normal.dot(self.direction) };
+        Exit { point: self.start.point, cos }
+    }
+}
+
 /// Where a light path starts.
 #[derive(Debug, Clone, Copy)]
 pub struct EmissionStart {
@@ -167,7 +182,11 @@ impl EmissionStart {
 
     /// Where a ray in this direction starts.
     pub fn origin(&self, direction: Vec3) -> Vec3 {
-        if self.normal == Vec3::ZERO { self.point } else { offset_origin(self.point, self.error, self.normal, direction) }
+        if self.normal == Vec3::ZERO {
+            self.point
+        } else {
+            offset_origin(self.point, self.error, self.normal, direction)
+        }
     }
 }
 
@@ -193,7 +212,8 @@ impl Light {
 
     /// Whether a ray that leaves the scene can run into it.
     pub fn is_infinite(&self) -> bool {
-        matches!(self.kind, LightKind::Environment) || matches!(self.kind, LightKind::Directional { one_minus_cos, .. } if one_minus_cos > 0.0)
+        matches!(self.kind, LightKind::Environment)
+            || matches!(self.kind, LightKind::Directional { one_minus_cos, .. } if one_minus_cos > 0.0)
     }
 
     /// Draws a direction from `from` towards the light.
@@ -220,7 +240,7 @@ impl Light {
             LightKind::Spot { position, axis, inner, outer } => {
                 point_sample(*position, from, |to_light| spot_falloff(-to_light, *axis, *inner, *outer))
             }
-            LightKind::Directional { direction, one_minus_cos, .. } => {
+            LightKind::Directional { direction, one_minus_cos } => {
                 if *one_minus_cos == 0.0 {
                     return Some(LightSample { target: None, wi: -*direction, weight: 1.0, pdf: None });
                 }
@@ -236,7 +256,12 @@ impl Light {
                 if along <= 0.0 || target.distance_squared(*origin) > radius * radius {
                     return None;
                 }
-                Some(LightSample { target: Some(target), wi: -*direction, weight: 1.0 / (PI * radius * radius), pdf: None })
+                Some(LightSample {
+                    target: Some(target),
+                    wi: -*direction,
+                    weight: 1.0 / (PI * radius * radius),
+                    pdf: None,
+                })
             }
             LightKind::Environment => None,
         }
@@ -261,7 +286,7 @@ impl Light {
     pub fn escaped(&self, direction: Vec3) -> Option<(f32, f32)> {
         match self.kind {
             LightKind::Environment => Some((1.0, 0.0)),
-            LightKind::Directional { direction: axis, one_minus_cos, .. } if one_minus_cos > 0.0 => {
+            LightKind::Directional { direction: axis, one_minus_cos } if one_minus_cos > 0.0 => {
                 // 1 − cos of the angle between unit vectors is half their squared distance: no digits are lost.
                 let inside = 0.5 * (direction + axis).length_squared() <= one_minus_cos;
                 inside.then(|| (disc_radiance(one_minus_cos), 1.0 / (TAU * one_minus_cos)))
@@ -278,52 +303,47 @@ impl Light {
         }
     }
 
-    /// Density of [`Self::emit`] per unit of étendue (area times projected solid angle); `None` for delta lights.
-    pub fn emission_density(&self) -> Option<f32> {
+    /// Density of [`Self::emit`] per unit of étendue (area times projected solid angle) for light that leaves in
+    /// this way; `None` for delta lights and the environment.
+    pub fn emission_density(&self, exit: &Exit, aim: &Aim) -> Option<f32> {
         match self.kind {
-            LightKind::Area { area, two_sided, .. } => Some(FRAC_1_PI / (area * if two_sided { 2.0 } else { 1.0 })),
-            LightKind::Directional { one_minus_cos, target: (_, radius), .. } if one_minus_cos > 0.0 => {
-                Some(1.0 / (TAU * one_minus_cos * PI * radius * radius))
+            LightKind::Area { area, two_sided, .. } => {
+                let per_area = 1.0 / (area * if two_sided { 2.0 } else { 1.0 });
+                Some(match aim.cone(exit.point) {
+                    Some((_, one_minus_cos)) if !two_sided => per_area / (TAU * one_minus_cos * exit.cos),
+                    _ => per_area * FRAC_1_PI,
+                })
+            }
+            LightKind::Directional { one_minus_cos, .. } if one_minus_cos > 0.0 => {
+                Some(1.0 / (TAU * one_minus_cos * PI * aim.radius * aim.radius))
             }
             _ => None,
         }
     }
 
-    /// Starts a light path: `u` draws the point, `v` the direction.
-    pub fn emit(&self, scene: &Scene, u: [f32; 2], v: [f32; 2]) -> Option<Emission> {
+    /// Starts a light path towards what is aimed at: `u` draws the point, `v` the direction.
+    pub fn emit(&self, scene: &Scene, aim: &Aim, u: [f32; 2], v: [f32; 2]) -> Option<Emission> {
         match &self.kind {
-            LightKind::Area { area, two_sided, .. } => {
-                // A two-sided light uses the first number to choose a side as well.
-                let (side, u) = match two_sided {
-                    true if u[0] < 0.5 => (-1.0, [2.0 * u[0], u[1]]),
-                    true => (1.0, [2.0 * u[0] - 1.0, u[1]]),
-                    false => (1.0, u),
-                };
-                let start = self.area_point(scene, u)?;
-                let normal = start.normal * side;
-                let (s, t) = orthonormal_basis(normal);
-                let local = cosine_hemisphere(v);
-                let direction = (s * local.x + t * local.y + normal * local.z).normalize();
-                let weight = PI * area * if *two_sided { 2.0 } else { 1.0 };
-                Some(Emission { start: EmissionStart { normal, ..start }, direction, weight })
-            }
+            LightKind::Area { area, two_sided, .. } => self.emit_from_surface(scene, aim, *area, *two_sided, u, v),
             LightKind::Point { position } => {
-                let direction = uniform_sphere(v).normalize();
-                Some(Emission { start: EmissionStart::free(*position), direction, weight: 4.0 * PI })
+                let start = EmissionStart::free(*position);
+                Some(match aim.sample(*position, v) {
+                    Some((direction, solid_angle)) => Emission { start, direction, weight: solid_angle },
+                    None => Emission { start, direction: uniform_sphere(v).normalize(), weight: 4.0 * PI },
+                })
             }
             LightKind::Spot { position, axis, inner, outer } => {
-                let (s, t) = orthonormal_basis(*axis);
-                let local = uniform_cone(v, *outer);
-                let direction = (s * local.x + t * local.y + *axis * local.z).normalize();
-                let weight = TAU * outer * spot_falloff(direction, *axis, *inner, *outer);
-                Some(Emission { start: EmissionStart::free(*position), direction, weight })
+                let narrower = aim.cone(*position).is_some_and(|(_, one_minus_cos)| one_minus_cos < *outer);
+                let aimed = if narrower { aim.sample(*position, v) } else { None };
+                let (direction, solid_angle) =
+                    aimed.unwrap_or_else(|| (turned(*axis, uniform_cone(v, *outer)), TAU * outer));
+                let weight = solid_angle * spot_falloff(direction, *axis, *inner, *outer);
+                (weight > 0.0).then_some(Emission { start: EmissionStart::free(*position), direction, weight })
             }
-            LightKind::Directional { direction: axis, one_minus_cos, target } => {
-                let (s, t) = orthonormal_basis(*axis);
-                let local = uniform_cone(v, *one_minus_cos);
-                let direction = (s * local.x + t * local.y + *axis * local.z).normalize();
+            LightKind::Directional { direction: axis, one_minus_cos } => {
+                let direction = turned(*axis, uniform_cone(v, *one_minus_cos));
                 // Radiance times solid angle: 1 up to the cosine in `disc_radiance`.
-                Some(from_infinity(scene, direction, *target, 2.0 / (2.0 - one_minus_cos), u))
+                Some(from_infinity(scene, direction, aim, 2.0 / (2.0 - one_minus_cos), u))
             }
             LightKind::Beam { origin, direction, radius } => {
                 let point = *origin + disc_offset(*direction, *radius, u);
@@ -331,9 +351,36 @@ impl Light {
             }
             LightKind::Environment => {
                 let direction = uniform_sphere(v).normalize();
-                Some(from_infinity(scene, direction, (Vec3::ZERO, scene.radius), 4.0 * PI, u))
+                Some(from_infinity(scene, direction, aim, 4.0 * PI, u))
             }
         }
+    }
+
+    fn emit_from_surface(
+        &self,
+        scene: &Scene,
+        aim: &Aim,
+        area: f32,
+        two_sided: bool,
+        u: [f32; 2],
+        v: [f32; 2],
+    ) -> Option<Emission> {
+        // A two-sided light uses the first number to choose a side as well.
+        let (side, u) = match two_sided {
+            true if u[0] < 0.5 => (-1.0, [2.0 * u[0], u[1]]),
+            true => (1.0, [2.0 * u[0] - 1.0, u[1]]),
+            false => (1.0, u),
+        };
+        let start = self.area_point(scene, u)?;
+        let normal = start.normal * side;
+        let start = EmissionStart { normal, ..start };
+        let area = area * if two_sided { 2.0 } else { 1.0 };
+        let aimed = if two_sided { None } else { aim.sample(start.point, v) };
+        let (direction, weight) = match aimed {
+            Some((direction, solid_angle)) => (direction, area * solid_angle * normal.dot(direction)),
+            None => (turned(normal, cosine_hemisphere(v)), area * PI),
+        };
+        (weight > 0.0).then_some(Emission { start, direction, weight })
     }
 
     /// A point uniform over the area of an area light, with its outward normal.
@@ -365,6 +412,35 @@ impl Light {
         };
         Some(start)
     }
+}
+
+/// What light paths are aimed at: a sphere that holds all that matters to them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Aim {
+    /// Centre.
+    pub center: Vec3,
+    /// Radius.
+    pub radius: f32,
+}
+
+impl Aim {
+    /// Axis and 1 − cos of the half angle of the cone in which it is seen; `None` from inside.
+    fn cone(&self, from: Vec3) -> Option<(Vec3, f32)> {
+        let one_minus_cos = sphere_cone(self.center, self.radius, from)?;
+        Some(((self.center - from).normalize(), one_minus_cos))
+    }
+
+    /// A direction uniform in that cone, and the cone's solid angle.
+    fn sample(&self, from: Vec3, u: [f32; 2]) -> Option<(Vec3, f32)> {
+        let (axis, one_minus_cos) = self.cone(from)?;
+        Some((turned(axis, uniform_cone(u, one_minus_cos)), TAU * one_minus_cos))
+    }
+}
+
+/// A direction about +z, turned so that +z becomes `axis`.
+fn turned(axis: Vec3, local: Vec3) -> Vec3 {
+    let (s, t) = orthonormal_basis(axis);
+    (s * local.x + t * local.y + axis * local.z).normalize()
 }
 
 fn on_plane(origin: Vec3, a: Vec3, b: Vec3, normal: Vec3) -> EmissionStart {
@@ -431,8 +507,8 @@ fn disc_offset(direction: Vec3, radius: f32, u: [f32; 2]) -> Vec3 {
 }
 
 /// A ray from outside the scene onto a disc that faces it.
-fn from_infinity(scene: &Scene, direction: Vec3, target: (Vec3, f32), solid_angle: f32, u: [f32; 2]) -> Emission {
-    let (center, radius) = target;
+fn from_infinity(scene: &Scene, direction: Vec3, aim: &Aim, solid_angle: f32, u: [f32; 2]) -> Emission {
+    let Aim { center, radius } = *aim;
     let point = center + disc_offset(direction, radius, u) - direction * (2.0 * scene.radius + center.length());
     Emission { start: EmissionStart::free(point), direction, weight: solid_angle * PI * radius * radius }
 }

@@ -11,12 +11,10 @@ mod material;
 pub use camera::{Camera, Connection};
 pub use compile::{Compiled, FilmSettings, Integrator, RenderSettings, compile};
 pub use features::SceneFeatures;
-pub use light::{AreaShape, Emission, EmissionStart, Light, LightKind, LightSample};
+pub use light::{Aim, AreaShape, Emission, EmissionStart, Exit, Light, LightKind, LightSample};
 pub use material::{Material, Medium, MediumId, SpectrumId};
 
-use crate::geometry::{
-    Aabb, Analytic, AnalyticHit, Bvh, Primitive, Ray, TriangleHit, geometric_normal, offset_origin,
-};
+use crate::geometry::{Aabb, Analytic, AnalyticHit, Bvh, Primitive, Ray, TriangleHit, geometric_normal, offset_origin};
 use crate::sampling::AliasTable;
 use crate::spectrum::{SpectrumTable, WavelengthDensity};
 use glam::{DVec3, Vec3};
@@ -45,6 +43,8 @@ pub struct Scene {
     pub light_table: AliasTable,
     /// Draws a light for light paths that make caustics, by luminous power.
     pub caustic_table: AliasTable,
+    /// A sphere around everything that scatters light into single directions; without such a thing there are no caustics.
+    pub caustic_aim: Option<Aim>,
     /// Draws a light for light paths of all kinds.
     pub emission_table: AliasTable,
     /// Lights at infinity that a ray can run into: the environment and discs like the sun's.
@@ -55,8 +55,6 @@ pub struct Scene {
     pub wavelengths: WavelengthDensity,
     /// What the scene needs.
     pub features: SceneFeatures,
-    /// Whether some surface scatters light into single directions: without one there are no caustics.
-    pub has_specular: bool,
     /// Radius of a sphere about the origin that holds everything.
     pub radius: f32,
     /// Length in metres of one unit of the compiled scene, a power of two.
@@ -153,6 +151,11 @@ impl Scene {
         Some(Surface { t, point: hit.point, error: hit.error, geometric, shading, object })
     }
 
+    /// A sphere around everything.
+    pub fn everything(&self) -> Aim {
+        Aim { center: Vec3::ZERO, radius: self.radius }
+    }
+
     /// The transparent objects that hold a point, outermost first. Counts how often a ray to infinity crosses each.
     pub fn interiors_at(&self, point: Vec3) -> Vec<(u32, MediumId)> {
         // An arbitrary direction that no model is likely to be aligned with.
@@ -169,7 +172,12 @@ impl Scene {
             ray = surface.spawn(ray.direction);
         }
         // What is left last was entered first.
-        crossings.iter().rev().filter(|(.., balance)| *balance > 0).map(|&(object, medium, _)| (object, medium)).collect()
+        crossings
+            .iter()
+            .rev()
+            .filter(|(.., balance)| *balance > 0)
+            .map(|&(object, medium, _)| (object, medium))
+            .collect()
     }
 
     /// Whether a box meets the box of a transparent object, so that points in it have to ask [`Self::interiors_at`].

@@ -184,9 +184,8 @@ fn transformed(mut mesh: Mesh, transform: &DAffine3) -> Mesh {
 
 /// Warns about glass that has no inside.
 fn lint(description: &SceneDescription, object: &ObjectDescription, placed: &Placed, warnings: &mut Vec<String>) {
-    let is_glass = object
-        .material
-        .is_some_and(|m| matches!(description.materials[m].1.kind, MaterialKind::Dielectric { .. }));
+    let is_glass =
+        object.material.is_some_and(|m| matches!(description.materials[m].1.kind, MaterialKind::Dielectric { .. }));
     let name = object.name.as_ref().map_or(String::new(), |n| format!(" (\"{n}\")"));
     let mut warn = |text: &str| {
         warnings.push(format!("{}: {}{name}: {text}", description.file.display(), object.at));

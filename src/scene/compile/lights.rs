@@ -3,16 +3,15 @@
 use super::geometry::{Geometry, Source};
 use super::normalize::{Normalization, power_of_two_above};
 use super::spectra::{Role, Spectra};
-use super::Integrator;
+use crate::Result;
 use crate::color::{Observer, xyz_of_emission};
 use crate::geometry::{Aabb, AnalyticShape, triangle_area};
 use crate::math;
 use crate::sampling::AliasTable;
 use crate::scene::description::{self, LightDescription, ObjectDescription, SceneDescription, ShapeDescription};
-use crate::scene::{AreaShape, Light, LightKind};
+use crate::scene::{Aim, AreaShape, Light, LightKind};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum, WavelengthDensity};
-use crate::Result;
-use glam::{DAffine3, DVec3, Vec3};
+use glam::{DAffine3, DVec3};
 
 /// The lights of a scene and the tables that draw one.
 pub struct Lights {
@@ -23,6 +22,8 @@ pub struct Lights {
     pub infinite: Vec<u32>,
     pub wavelengths: WavelengthDensity,
     pub radiance_scale: f64,
+    /// A sphere around everything that can focus light.
+    pub caustic_aim: Option<Aim>,
 }
 
 /// A light before its spectrum has been scaled.
@@ -45,19 +46,20 @@ pub fn compile(
     geometry: &mut Geometry,
     spectra: &mut Spectra,
     normalization: &Normalization,
-    integrator: Integrator,
     warnings: &mut Vec<String>,
 ) -> Result<Lights> {
-    let raw = raw_lights(description, geometry, spectra, normalization, integrator)?;
+    let raw = raw_lights(description, geometry, spectra, normalization)?;
     let peak = |r: &Raw| r.spectrum.range().1 * r.factor;
     let brightest = raw.iter().map(peak).fold(0.0, f64::max);
     let radiance_scale = power_of_two_above(brightest);
     for light in raw.iter().filter(|r| peak(r) < brightest * FAINTEST) {
         let file = description.file.display();
-        warnings.push(format!("{file}: {}: this light is 2^-100 of the brightest or less, and will not be seen", light.at));
+        warnings
+            .push(format!("{file}: {}: this light is 2^-100 of the brightest or less, and will not be seen", light.at));
     }
 
     let spectral = SpectralGrid::new(&raw);
+    let specular = SpecularBounds::of(geometry);
     let mut lights = Lights {
         lights: Vec::new(),
         sampled: AliasTable::default(),
@@ -66,8 +68,8 @@ pub fn compile(
         infinite: Vec::new(),
         wavelengths: spectral.density(&raw, normalization.radius),
         radiance_scale,
+        caustic_aim: specular.sphere(),
     };
-    let specular = SpecularBounds::of(geometry);
     let (mut sampled, mut caustic, mut emitting) = (Vec::new(), Vec::new(), Vec::new());
     for raw in raw {
         let index = lights.lights.len() as u32;
@@ -102,7 +104,6 @@ fn raw_lights(
     geometry: &Geometry,
     spectra: &Spectra,
     normalization: &Normalization,
-    integrator: Integrator,
 ) -> Result<Vec<Raw>> {
     let mut raw = Vec::new();
     for (index, object) in description.objects.iter().enumerate() {
@@ -119,7 +120,7 @@ fn raw_lights(
         }
     }
     for light in &description.lights {
-        raw.push(shapeless_light(light, geometry, spectra, normalization, integrator)?);
+        raw.push(shapeless_light(light, spectra, normalization)?);
     }
     if let Some(environment) = &description.environment {
         raw.push(Raw {
@@ -136,13 +137,7 @@ fn raw_lights(
     Ok(raw)
 }
 
-fn shapeless_light(
-    light: &LightDescription,
-    geometry: &Geometry,
-    spectra: &Spectra,
-    normalization: &Normalization,
-    integrator: Integrator,
-) -> Result<Raw> {
+fn shapeless_light(light: &LightDescription, spectra: &Spectra, normalization: &Normalization) -> Result<Raw> {
     use description::LightKind as Kind;
     let unit = |v: [f64; 3]| DVec3::from(v).normalize().as_vec3();
     let point = |p: [f64; 3]| normalization.point(DVec3::from(p)).as_vec3();
@@ -164,13 +159,8 @@ fn shapeless_light(
             (kind, intensity, per_area, Some(Aabb::from_points([position])))
         }
         Kind::Directional { direction, irradiance, angular_diameter_degrees } => {
-            let everything = (Vec3::ZERO, normalization.radius);
-            let target = match integrator {
-                Integrator::Light => everything,
-                Integrator::Auto | Integrator::Path => SpecularBounds::of(geometry).sphere().unwrap_or(everything),
-            };
             let one_minus_cos = one_minus_cos(0.5 * angular_diameter_degrees);
-            (LightKind::Directional { direction: unit(*direction), one_minus_cos, target }, irradiance, 1.0, None)
+            (LightKind::Directional { direction: unit(*direction), one_minus_cos }, irradiance, 1.0, None)
         }
         Kind::Beam { origin, direction, radius, power } => {
             let (origin, radius) = (point(*origin), normalization.length(*radius) as f32);
@@ -185,7 +175,9 @@ fn shapeless_light(
 fn area_light(object: &ObjectDescription, source: &Source, geometry: &Geometry) -> LightKind {
     let (shape, area) = match source {
         Source::Triangles(range) => triangle_light(&object.shape, range.clone(), geometry),
-        Source::Analytic(AnalyticShape::Sphere(sphere), transform) => sphere_light(sphere.center, sphere.radius, transform),
+        Source::Analytic(AnalyticShape::Sphere(sphere), transform) => {
+            sphere_light(sphere.center, sphere.radius, transform)
+        }
         Source::Analytic(AnalyticShape::Disk(disk), transform) => {
             let placed = *transform * disk.object_from_unit();
             let (u, v) = (placed.matrix3.x_axis, placed.matrix3.y_axis);
@@ -249,15 +241,15 @@ impl SpecularBounds {
     }
 
     /// Its circumscribed sphere; `None` if nothing is specular.
-    fn sphere(&self) -> Option<(Vec3, f32)> {
+    fn sphere(&self) -> Option<Aim> {
         let half = (self.0.max - self.0.min) * 0.5;
-        half.is_finite().then(|| (self.0.center(), half.length() * (1.0 + 4.0 * f32::EPSILON)))
+        half.is_finite().then(|| Aim { center: self.0.center(), radius: half.length() * (1.0 + 4.0 * f32::EPSILON) })
     }
 
     /// Whether a light is so small that camera paths hardly find it through glass or mirrors: seen from there it fills
     /// less than one steradian. Then light paths take part.
     fn makes_caustics(&self, light: &Light, bounds: Option<Aabb>) -> bool {
-        let Some((center, radius)) = self.sphere() else { return false };
+        let Some(Aim { center, radius }) = self.sphere() else { return false };
         match light.kind {
             LightKind::Environment => false,
             LightKind::Area { area, .. } => {

@@ -86,9 +86,7 @@ fn index_of_refraction(ior: &IorDescription) -> Result<(IndexOfRefraction, Optio
             (entry.constants().map(|c| c.n), format!("glass \"{}\"", entry.name))
         }
         IorKind::Sellmeier { b, c_um2 } => (IndexOfRefraction::sellmeier(b, c_um2), "the Sellmeier formula".to_owned()),
-        IorKind::Cauchy(coefficients) => {
-            (IndexOfRefraction::cauchy_um(coefficients), "the Cauchy formula".to_owned())
-        }
+        IorKind::Cauchy(coefficients) => (IndexOfRefraction::cauchy_um(coefficients), "the Cauchy formula".to_owned()),
         IorKind::Abbe { nd, vd } => (IndexOfRefraction::from_abbe(*nd, *vd), "the index of nd and vd".to_owned()),
         IorKind::Tabulated { wavelengths_nm, values } => {
             (IndexOfRefraction::tabulated(wavelengths_nm.clone(), values.clone()), "the table".to_owned())

@@ -84,12 +84,11 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
     let materials = Materials::compile(description, &mut spectra, &normalization, &mut warnings)?;
     let mut geometry = Geometry::compile(description, placed, &normalization, &materials)?;
     let bvh = Bvh::build(&geometry.positions, &geometry.triangles, &geometry.analytic_bounds());
-    let lights = lights::compile(description, &mut geometry, &mut spectra, &normalization, integrator, &mut warnings)?;
+    let lights = lights::compile(description, &mut geometry, &mut spectra, &normalization, &mut warnings)?;
     let features = SceneFeatures {
         dispersion: materials.media.iter().any(|m| m.dispersive),
         interiors: !materials.media.is_empty(),
     };
-    let has_specular = geometry.objects.iter().any(|o| o.material.is_specular());
     let scene = Scene {
         bvh,
         positions: geometry.positions,
@@ -103,13 +102,13 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
         media: materials.media,
         light_table: lights.sampled,
         caustic_table: lights.caustic,
+        caustic_aim: lights.caustic_aim,
         emission_table: lights.emitting,
         infinite_lights: lights.infinite,
         lights: lights.lights,
         camera: camera(description, &normalization)?,
         wavelengths: lights.wavelengths,
         features,
-        has_specular,
         radius: normalization.radius,
         meters_per_unit: normalization.meters_per_unit,
         radiance_scale: lights.radiance_scale,

@@ -64,10 +64,7 @@ impl Normalization {
     /// A transform into metres, followed by this one.
     pub fn after(&self, meters_from_object: DAffine3) -> DAffine3 {
         let scale = DMat3::from_diagonal(DVec3::splat(1.0 / self.meters_per_unit));
-        DAffine3::from_mat3_translation(
-            scale * meters_from_object.matrix3,
-            self.point(meters_from_object.translation),
-        )
+        DAffine3::from_mat3_translation(scale * meters_from_object.matrix3, self.point(meters_from_object.translation))
     }
 }
 

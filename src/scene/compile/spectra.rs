@@ -1,7 +1,7 @@
 //! Resolving spectra: names, files, colours and illuminants become functions, functions become tables.
 
-use crate::color::illuminant;
 use crate::color::RgbSpace;
+use crate::color::illuminant;
 use crate::color::upsample;
 use crate::color::{Observer, normalized_to_unit_luminance};
 use crate::io::spectrum_file;
