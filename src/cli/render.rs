@@ -300,7 +300,10 @@ fn write_outputs(
                 let picture = develop::develop(&xyz, film.width(), description.develop.exposure_ev, tonemap);
                 if verbose {
                     let outside = picture.out_of_gamut * 100.0;
-                    eprintln!("developed at {:+.2} EV; {outside:.2} % of the pixels were outside sRGB", picture.exposure_ev);
+                    eprintln!(
+                        "developed at {:+.2} EV; {outside:.2} % of the pixels were outside sRGB",
+                        picture.exposure_ev
+                    );
                 }
                 png::encode(&picture)?
             }

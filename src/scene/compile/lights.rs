@@ -257,7 +257,8 @@ fn makes_caustics(light: &Light, bounds: Option<Aabb>, aim: &Aim) -> bool {
         LightKind::Environment => false,
         LightKind::Directional { one_minus_cos, .. } => std::f32::consts::TAU * one_minus_cos < SMALL_LIGHT_SR,
         LightKind::Area { area, .. } => {
-            let distance2 = bounds.map_or(0.0, |b| b.center().distance_squared(aim.center)).max(aim.radius * aim.radius);
+            let distance2 =
+                bounds.map_or(0.0, |b| b.center().distance_squared(aim.center)).max(aim.radius * aim.radius);
             light.can_emit() && area < SMALL_LIGHT_SR * distance2
         }
         LightKind::Point { .. } | LightKind::Spot { .. } | LightKind::Beam { .. } => true,
