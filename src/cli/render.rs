@@ -104,7 +104,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     bar.finish_and_clear();
 
     let seconds = started.elapsed().as_secs_f64();
-    write_outputs(&outputs, &film, &description, &compiled, &statistics, seconds)?;
+    write_outputs(&outputs, &film, &description, &compiled, &statistics, seconds, args.verbose)?;
     report(args, &outputs, &film, &statistics, seconds)?;
     Ok(if statistics.complete { ExitCode::SUCCESS } else { ExitCode::from(super::INTERRUPTED) })
 }
@@ -284,6 +284,7 @@ fn write_outputs(
     compiled: &Compiled,
     statistics: &Statistics,
     seconds: f64,
+    verbose: bool,
 ) -> Result<()> {
     let xyz = film.to_xyz();
     for path in outputs {
@@ -307,7 +308,15 @@ fn write_outputs(
                     description::Tonemap::Exponential => Tonemap::Exponential,
                     description::Tonemap::Reinhard => Tonemap::Reinhard,
                 };
-                png::encode(&develop::develop(&xyz, film.width(), description.develop.exposure_ev, tonemap))?
+                let picture = develop::develop(&xyz, film.width(), description.develop.exposure_ev, tonemap);
+                if verbose {
+                    let outside = picture.out_of_gamut * 100.0;
+                    eprintln!(
+                        "developed at {:+.2} EV; {outside:.2} % of the pixels were outside sRGB",
+                        picture.exposure_ev
+                    );
+                }
+                png::encode(&picture)?
             }
         };
         match is_stdout(path) {

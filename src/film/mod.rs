@@ -134,7 +134,7 @@ impl Film {
         }
         let mut total = 0.0;
         for (i, (pixel, xyz)) in self.camera.iter().zip(&image).enumerate() {
-            for c in 0..3 {
+            for (c, value) in xyz.iter().enumerate() {
                 let mut variance = self.light_variance(i, c, &light_replicates);
                 if pixel.count.iter().any(|&n| n > 0) {
                     if pixel.count.contains(&0) {
@@ -143,7 +143,7 @@ impl Film {
                     let [a, b] = [0, 1].map(|r| self.scale * pixel.sum[r][c] / pixel.count[r] as f64);
                     variance += (a - b) * (a - b) / 4.0;
                 }
-                total += variance / (xyz[c] * xyz[c] + 0.01 * mean * mean).max(f64::MIN_POSITIVE);
+                total += variance / (value * value + 0.01 * mean * mean).max(f64::MIN_POSITIVE);
             }
         }
         Some(total / (3 * image.len()) as f64)

@@ -22,13 +22,13 @@ impl Sensor {
     /// The factor of each lane's radiance in X, Y and Z: matching function / (8 pdf).
     pub fn weights(&self, wavelengths: &Wavelengths) -> [SampledSpectrum; 3] {
         let mut weights = [[0.0; LANES]; 3];
-        for k in 0..LANES {
-            let x = (wavelengths.lambda_nm[k] - self.first_nm).clamp(0.0, (self.matching.len() - 1) as f32);
+        for (k, (lambda_nm, pdf)) in wavelengths.lambda_nm.into_iter().zip(wavelengths.pdf).enumerate() {
+            let x = (lambda_nm - self.first_nm).clamp(0.0, (self.matching.len() - 1) as f32);
             let i = (x as usize).min(self.matching.len() - 2);
             let (a, b, t) = (self.matching[i], self.matching[i + 1], x - i as f32);
-            let share = 1.0 / (LANES as f32 * wavelengths.pdf[k]);
-            for c in 0..3 {
-                weights[c][k] = (a[c] + (b[c] - a[c]) * t) * share;
+            let share = 1.0 / (LANES as f32 * pdf);
+            for (c, weight) in weights.iter_mut().enumerate() {
+                weight[k] = (a[c] + (b[c] - a[c]) * t) * share;
             }
         }
         weights.map(SampledSpectrum::new)

@@ -5,7 +5,7 @@ use super::{Techniques, bounce};
 use crate::bsdf::{Bsdf, Indices};
 use crate::geometry::Frame;
 use crate::sampling::balance_heuristic;
-use crate::scene::{Exit, LightSample, Material, Scene, Surface};
+use crate::scene::{Exit, Light, LightSample, Material, Scene, Surface};
 use crate::spectrum::SampledSpectrum;
 use glam::Vec3;
 
@@ -62,7 +62,9 @@ pub fn radiance<const DISPERSION: bool, const INTERIORS: bool>(
                 if walk.depth == 0 {
                     origin = origin.at_first_diffuse(camera_density(scene, &surface, wo));
                 }
-                radiance += direct_light::<INTERIORS>(walk, &surface, &bsdf, &frame, wo, u, &camera_indices);
+                let receiver = Receiver { surface: &surface, bsdf: &bsdf, frame: &frame, wo };
+                let direct = direct_light::<INTERIORS>(walk, receiver, u);
+                radiance += direct * walk.throughput * radiance_ratio::<INTERIORS>(walk, &camera_indices);
             }
             let Some(sample) = bounce(walk, &surface, &bsdf, &frame, [u[0], u[1]]) else { break };
             origin = match sample.pdf {
@@ -187,20 +189,39 @@ fn hit_weight(
     }
 }
 
-/// Next-event estimation: light from one light, drawn by its power, that arrives at a surface directly.
-fn direct_light<const INTERIORS: bool>(
-    walk: &mut Walk,
-    surface: &Surface,
-    bsdf: &Bsdf,
-    frame: &Frame,
+/// A diffuse surface that asks for light.
+#[derive(Clone, Copy)]
+struct Receiver<'a> {
+    surface: &'a Surface,
+    bsdf: &'a Bsdf,
+    frame: &'a Frame,
     wo: Vec3,
-    u: [f32; 8],
-    camera: &Option<Indices>,
-) -> SampledSpectrum {
+}
+
+/// Next-event estimation: light that arrives at a surface directly from one light drawn by its power, and from each local
+/// one.
+fn direct_light<const INTERIORS: bool>(walk: &mut Walk, receiver: Receiver, u: [f32; 8]) -> SampledSpectrum {
     let scene = walk.scene;
-    let Some(draw) = scene.light_table.sample(u[4]) else { return SampledSpectrum::ZERO };
-    let light = &scene.lights[draw.index];
-    let Some(LightSample { target, wi, weight, pdf }) = light.sample(scene, surface.point, [u[5], u[6]]) else {
+    let mut radiance = SampledSpectrum::ZERO;
+    if let Some(draw) = scene.light_table.sample(u[4]) {
+        radiance += light_from::<INTERIORS>(walk, receiver, &scene.lights[draw.index], draw.probability, [u[5], u[6]]);
+    }
+    for &light in &scene.local_lights {
+        radiance += light_from::<INTERIORS>(walk, receiver, &scene.lights[light as usize], 1.0, [u[5], u[6]]);
+    }
+    radiance
+}
+
+/// Radiance towards `wo` that one light causes, by a sample of it.
+fn light_from<const INTERIORS: bool>(
+    walk: &mut Walk,
+    receiver: Receiver,
+    light: &Light,
+    probability: f32,
+    u: [f32; 2],
+) -> SampledSpectrum {
+    let Receiver { surface, bsdf, frame, wo } = receiver;
+    let Some(LightSample { target, wi, weight, pdf }) = light.sample(walk.scene, surface.point, u) else {
         return SampledSpectrum::ZERO;
     };
     let reflected = bsdf.eval(frame, wo, wi);
@@ -208,8 +229,7 @@ fn direct_light<const INTERIORS: bool>(
         return SampledSpectrum::ZERO;
     }
     let Some(transmittance) = walk.visibility::<INTERIORS>(surface, wi, target) else { return SampledSpectrum::ZERO };
-    let mis = pdf.map_or(1.0, |pdf| balance_heuristic(draw.probability * pdf, bsdf.pdf(frame, wo, wi)));
-    let emission = walk.workspace.spectra.spectrum(scene, light.spectrum);
-    let factor = weight * mis / draw.probability;
-    walk.throughput * reflected * emission * transmittance * factor * radiance_ratio::<INTERIORS>(walk, camera)
+    let mis = pdf.map_or(1.0, |pdf| balance_heuristic(probability * pdf, bsdf.pdf(frame, wo, wi)));
+    let emission = walk.workspace.spectra.spectrum(walk.scene, light.spectrum);
+    reflected * emission * transmittance * (weight * mis / probability)
 }

@@ -131,7 +131,7 @@ fn laine_karras_lanes(mut x: u32x8, seed: u32x8) -> u32x8 {
     x += seed;
     x *= (seed >> 16) | u32x8::splat(1);
     x ^= x * u32x8::splat(0x0552_6c56);
-    x ^ x * u32x8::splat(0x53a2_2864)
+    x ^ (x * u32x8::splat(0x53a2_2864))
 }
 
 /// Eight scramble seeds out of one.

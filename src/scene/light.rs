@@ -1,7 +1,7 @@
 //! Lights: sampled from a point (next-event estimation), met by a ray, or the start of light paths.
 
 use super::{Scene, SpectrumId, Surface};
-use crate::geometry::{offset_origin, orthonormal_basis, sample_triangle};
+use crate::geometry::{Aabb, offset_origin, orthonormal_basis, sample_triangle};
 use crate::math;
 use crate::sampling::{AliasTable, concentric_disk, cosine_hemisphere, uniform_cone, uniform_sphere};
 use crate::spectrum::WavelengthDensity;
@@ -194,6 +194,30 @@ impl Light {
     /// Whether next-event estimation can find it. The environment is found by the rays that scattering sends out anyway.
     pub fn is_sampled(&self) -> bool {
         !matches!(self.kind, LightKind::Environment | LightKind::Area { shape: AreaShape::Unsampled, .. })
+    }
+
+    /// Whether it lights so little of the scene that next-event estimation asks it at every point instead of drawing it: a
+    /// beam, of which a point knows at once whether it lies in it.
+    pub fn is_local(&self) -> bool {
+        matches!(self.kind, LightKind::Beam { .. })
+    }
+
+    /// Share of its power that light paths send to what they are aimed at, roughly.
+    pub fn aimed_share(&self, bounds: Option<Aabb>, aim: &Aim, scene_radius: f32) -> f64 {
+        let share = match (self.kind.clone(), bounds) {
+            (LightKind::Directional { .. } | LightKind::Environment, _) => {
+                let ratio = aim.radius / scene_radius;
+                ratio * ratio
+            }
+            (LightKind::Spot { outer, .. }, Some(bounds)) => {
+                aim.cone(bounds.center()).map_or(1.0, |(_, cone)| cone / outer.max(f32::MIN_POSITIVE))
+            }
+            (LightKind::Point { .. } | LightKind::Area { .. }, Some(bounds)) => {
+                aim.cone(bounds.center()).map_or(1.0, |(_, cone)| 0.5 * cone)
+            }
+            _ => 1.0,
+        };
+        f64::from(share.min(1.0))
     }
 
     /// Whether light paths can start from it.

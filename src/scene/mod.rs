@@ -41,7 +41,7 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Draws a light for next-event estimation, by luminous power.
     pub light_table: AliasTable,
-    /// Draws a light for light paths that make caustics, by luminous power.
+    /// Draws a light for light paths that make caustics, by the power that can take part in them.
     pub caustic_table: AliasTable,
     /// A sphere around everything that scatters light into single directions; without such a thing there are no caustics.
     pub caustic_aim: Option<Aim>,
@@ -49,6 +49,8 @@ pub struct Scene {
     pub emission_table: AliasTable,
     /// Lights at infinity that a ray can run into: the environment and discs like the sun's.
     pub infinite_lights: Vec<u32>,
+    /// Lights that are asked at every point; see [`Light::is_local`].
+    pub local_lights: Vec<u32>,
     /// The camera.
     pub camera: Camera,
     /// Wavelengths of camera paths.

@@ -20,6 +20,7 @@ pub struct Lights {
     pub caustic: AliasTable,
     pub emitting: AliasTable,
     pub infinite: Vec<u32>,
+    pub local: Vec<u32>,
     pub wavelengths: WavelengthDensity,
     pub radiance_scale: f64,
     /// A sphere around everything that can focus light.
@@ -59,16 +60,16 @@ pub fn compile(
     }
 
     let spectral = SpectralGrid::new(&raw);
-    let specular = SpecularBounds::of(geometry);
     let mut lights = Lights {
         lights: Vec::new(),
         sampled: AliasTable::default(),
         caustic: AliasTable::default(),
         emitting: AliasTable::default(),
         infinite: Vec::new(),
+        local: Vec::new(),
         wavelengths: spectral.density(&raw, normalization.radius),
         radiance_scale,
-        caustic_aim: specular.sphere(),
+        caustic_aim: specular_aim(geometry),
     };
     let (mut sampled, mut caustic, mut emitting) = (Vec::new(), Vec::new(), Vec::new());
     for raw in raw {
@@ -82,9 +83,17 @@ pub fn compile(
         };
         let luminance = xyz_of_emission(&raw.spectrum, Observer::cie_1931_2deg()).y * factor;
         let power = luminance * light.kind.power(normalization.radius);
-        sampled.push(if light.is_sampled() { power } else { 0.0 });
+        sampled.push(if light.is_sampled() && !light.is_local() { power } else { 0.0 });
         emitting.push(if light.can_emit() { power } else { 0.0 });
-        caustic.push(if specular.makes_caustics(&light, raw.bounds) { power } else { 0.0 });
+        caustic.push(match lights.caustic_aim {
+            Some(aim) if makes_caustics(&light, raw.bounds, &aim) => {
+                power * light.aimed_share(raw.bounds, &aim, normalization.radius)
+            }
+            _ => 0.0,
+        });
+        if light.is_local() {
+            lights.local.push(index);
+        }
         if let Some(object) = raw.object {
             geometry.objects[object].light = Some(index);
         }
@@ -231,34 +240,28 @@ fn may_be_inside(geometry: &Geometry, bounds: &Aabb) -> bool {
     geometry.objects.iter().any(|o| matches!(o.material, Material::Dielectric { .. }) && o.bounds.overlaps(bounds))
 }
 
-/// The box around everything that can focus light.
-struct SpecularBounds(Aabb);
+/// A sphere around everything that can focus light; `None` if nothing can.
+fn specular_aim(geometry: &Geometry) -> Option<Aim> {
+    let specular = geometry.objects.iter().filter(|o| o.material.is_specular());
+    let bounds = specular.fold(Aabb::EMPTY, |bounds, o| bounds.union(o.bounds));
+    let half = (bounds.max - bounds.min) * 0.5;
+    half.is_finite().then(|| Aim { center: bounds.center(), radius: half.length() * (1.0 + 4.0 * f32::EPSILON) })
+}
 
-impl SpecularBounds {
-    fn of(geometry: &Geometry) -> Self {
-        let specular = geometry.objects.iter().filter(|o| o.material.is_specular());
-        Self(specular.fold(Aabb::EMPTY, |bounds, o| bounds.union(o.bounds)))
-    }
+/// Solid angle, seen from what focuses it, below which camera paths hardly find a light: by scattering diffusely they
+/// hit it once in 30 times or less, and light paths take part.
+const SMALL_LIGHT_SR: f32 = 0.1;
 
-    /// Its circumscribed sphere; `None` if nothing is specular.
-    fn sphere(&self) -> Option<Aim> {
-        let half = (self.0.max - self.0.min) * 0.5;
-        half.is_finite().then(|| Aim { center: self.0.center(), radius: half.length() * (1.0 + 4.0 * f32::EPSILON) })
-    }
-
-    /// Whether a light is so small that camera paths hardly find it through glass or mirrors: seen from there it fills
-    /// less than one steradian. Then light paths take part.
-    fn makes_caustics(&self, light: &Light, bounds: Option<Aabb>) -> bool {
-        let Some(Aim { center, radius }) = self.sphere() else { return false };
-        match light.kind {
-            LightKind::Environment => false,
-            LightKind::Area { area, .. } => {
-                let at = bounds.map_or(center, |b| b.center());
-                let distance2 = center.distance_squared(at).max(radius * radius);
-                light.can_emit() && area < distance2
-            }
-            _ => true,
+fn makes_caustics(light: &Light, bounds: Option<Aabb>, aim: &Aim) -> bool {
+    match light.kind {
+        LightKind::Environment => false,
+        LightKind::Directional { one_minus_cos, .. } => std::f32::consts::TAU * one_minus_cos < SMALL_LIGHT_SR,
+        LightKind::Area { area, .. } => {
+            let distance2 =
+                bounds.map_or(0.0, |b| b.center().distance_squared(aim.center)).max(aim.radius * aim.radius);
+            light.can_emit() && area < SMALL_LIGHT_SR * distance2
         }
+        LightKind::Point { .. } | LightKind::Spot { .. } | LightKind::Beam { .. } => true,
     }
 }
 

@@ -105,6 +105,7 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
         caustic_aim: lights.caustic_aim,
         emission_table: lights.emitting,
         infinite_lights: lights.infinite,
+        local_lights: lights.local,
         lights: lights.lights,
         camera: camera(description, &normalization)?,
         wavelengths: lights.wavelengths,
