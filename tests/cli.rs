@@ -343,9 +343,10 @@ fn render_writes_exr_and_png() {
     assert!(channels.values().flatten().all(|v| v.is_finite()));
     assert!(channels["Y"].iter().all(|&y| y > 0.0) && channels["Y"].len() == 24 * 18);
     // Linear sRGB's luminance is Y.
-    for i in 0..24 * 18 {
-        let y = 0.2126 * channels["R"][i] + 0.7152 * channels["G"][i] + 0.0722 * channels["B"][i];
-        assert!((y - channels["Y"][i]).abs() < 2e-3 * channels["Y"][i], "{y} {}", channels["Y"][i]);
+    let rgb = channels["R"].iter().zip(&channels["G"]).zip(&channels["B"]);
+    for (((r, g), b), y) in rgb.zip(&channels["Y"]) {
+        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        assert!((luminance - y).abs() < 2e-3 * y, "{luminance} {y}");
     }
     let png = image::load_from_memory(&folder.read("scene.png")).unwrap();
     assert_eq!((png.width(), png.height(), png.color()), (24, 18, image::ColorType::Rgb8));

@@ -63,7 +63,7 @@ fn place_object(object: &ObjectDescription) -> Result<Placed> {
     let mesh = match &object.shape {
         ShapeDescription::Sphere { center, radius } => {
             let sphere = Sphere::new(DVec3::from(*center), *radius).map_err(here)?;
-            return analytic(AnalyticShape::Spthere(spthere), transform).map_err(there);
+            return analytic(AnalyticShape::Sphere(sphere), transform).map_err(there);
         }
         ShapeDescription::Disk { center, normal, radius } => {
             let disk = Disk::new(DVec3::from(*center), DVec3::from(*normal), *radius).map_err(here)?;
