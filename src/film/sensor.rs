@@ -61,8 +61,8 @@ mod tests {
             (0..3).for_each(|c| mean[c] += xyz[c] / f64::from(n));
         }
         let area = |c: usize| matching.windows(2).map(|w| 0.5 * (w[0][c] + w[1][c])).sum::<f64>();
-        for c in 0..3 {
-            assert!((mean[c] - area(c) / area(1)).abs() < 1e-4, "{c}: {}", mean[c]);
+        for (c, mean) in mean.into_iter().enumerate() {
+            assert!((mean - area(c) / area(1)).abs() < 1e-4, "{c}: {mean}");
         }
     }
 }

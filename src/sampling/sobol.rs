@@ -162,9 +162,8 @@ mod tests {
         for x in (0..100u32).map(|i| mix(u64::from(i)) as u32) {
             let seeds = lane_seeds(x);
             let lanes = reverse_bits(laine_karras_lanes(sobol_reversed(x), seeds)).to_array();
-            for lane in 0..8 {
-                let plain = sobol_reversed(x).to_array()[lane];
-                assert_eq!(lanes[lane], laine_karras(plain, seeds.to_array()[lane]).reverse_bits());
+            for ((lane, plain), seed) in lanes.into_iter().zip(sobol_reversed(x).to_array()).zip(seeds.to_array()) {
+                assert_eq!(lane, laine_karras(plain, seed).reverse_bits());
             }
         }
     }
