@@ -3,66 +3,79 @@
 /// A probability density, linear between knots, drawn by inverting its distribution function exactly.
 #[derive(Debug, Clone)]
 pub struct PiecewiseLinearDensity {
-    /// Knots, ascending.
-    x: Vec<f32>,
-    /// Density at the knots.
-    density: Vec<f32>,
-    /// Distribution function at the knots, from 0 to 1.
-    cdf: Vec<f32>,
+    segments: Vec<Segment>,
     /// `guide[i]` is the last segment that starts at or before i / guide.len().
     guide: Vec<u32>,
+}
+
+/// The density between two knots.
+#[derive(Debug, Clone, Copy)]
+struct Segment {
+    start: f32,
+    width: f32,
+    /// Density at the start, and its slope.
+    density: f32,
+    slope: f32,
+    /// Distribution function at the start.
+    cdf: f32,
 }
 
 impl PiecewiseLinearDensity {
     /// From strictly ascending knots and weights ≥ 0 with a positive integral.
     pub fn new(x: &[f64], weights: &[f64]) -> Self {
         assert!(x.len() == weights.len() && x.len() > 1, "a density needs two knots");
-        let areas = x.windows(2).zip(weights.windows(2)).map(|(x, w)| (x[1] - x[0]) * (w[0] + w[1]) * 0.5);
-        let total: f64 = areas.clone().sum();
+        let pieces = || x.windows(2).zip(weights.windows(2));
+        let total: f64 = pieces().map(|(x, w)| (x[1] - x[0]) * (w[0] + w[1]) * 0.5).sum();
         assert!(total > 0.0 && total.is_finite(), "a density needs a positive integral");
         let mut sum = 0.0;
-        let inner = areas.map(|area| {
-            sum += area;
-            ((sum / total) as f32).min(1.0)
-        });
-        let mut cdf: Vec<f32> = std::iter::once(0.0).chain(inner).collect();
-        *cdf.last_mut().expect("two knots") = 1.0;
-        let segments = x.len() - 1;
-        let guide = (0..2 * segments)
-            .map(|i| (cdf.partition_point(|&c| c <= i as f32 / (2 * segments) as f32) - 1).min(segments - 1) as u32)
+        let segments: Vec<Segment> = pieces()
+            .map(|(x, w)| {
+                let (width, cdf) = (x[1] - x[0], (sum / total).min(1.0) as f32);
+                sum += width * (w[0] + w[1]) * 0.5;
+                let slope = ((w[1] - w[0]) / (total * width)) as f32;
+                Segment { start: x[0] as f32, width: width as f32, density: (w[0] / total) as f32, slope, cdf }
+            })
             .collect();
-        Self {
-            x: x.iter().map(|&x| x as f32).collect(),
-            density: weights.iter().map(|w| (w / total) as f32).collect(),
-            cdf,
-            guide,
-        }
+        let cells = 2 * segments.len();
+        let guide =
+            (0..cells).map(|i| segments.partition_point(|s| s.cdf <= i as f32 / cells as f32) as u32 - 1).collect();
+        Self { segments, guide }
     }
 
     /// The point where the distribution function is `u` in [0, 1), and the density there.
     pub fn sample(&self, u: f32) -> (f32, f32) {
-        let last = self.x.len() - 2;
-        let mut k = self.guide[((u * self.guide.len() as f32) as usize).min(self.guide.len() - 1)] as usize;
-        while k < last && self.cdf[k + 1] <= u {
-            k += 1;
+        let ([x], [density]) = self.sample_many([u]);
+        (x, density)
+    }
+
+    /// [`Self::sample`] for several numbers at once: points, and densities there.
+    pub fn sample_many<const N: usize>(&self, u: [f32; N]) -> ([f32; N], [f32; N]) {
+        let found = u.map(|u| {
+            let mut k = self.guide[((u * self.guide.len() as f32) as usize).min(self.guide.len() - 1)] as usize;
+            while self.segments.get(k + 1).is_some_and(|next| next.cdf <= u) {
+                k += 1;
+            }
+            self.segments[k]
+        });
+        // density t + slope t² / 2 = rest, solved without cancellation; one loop a step, for SIMD.
+        let mut t = [0.0f32; N];
+        let mut density = [0.0f32; N];
+        for lane in 0..N {
+            let Segment { density: a, slope, cdf, width, .. } = found[lane];
+            let rest = (u[lane] - cdf).max(0.0);
+            let root = (a * a + 2.0 * rest * slope).max(0.0).sqrt();
+            t[lane] = (2.0 * rest / (a + root).max(f32::MIN_POSITIVE)).min(width);
+            density[lane] = (a + slope * t[lane]).max(0.0);
         }
-        let (a, b, h) = (self.density[k], self.density[k + 1], self.x[k + 1] - self.x[k]);
-        let rest = (u - self.cdf[k]).max(0.0);
-        // a t + (b − a) t² / 2h = rest, solved without cancellation.
-        let root = (a * a + 2.0 * rest * (b - a) / h).max(0.0).sqrt();
-        let t = if a + root > 0.0 { (2.0 * rest / (a + root)).min(h) } else { 0.0 };
-        (self.x[k] + t, a + (b - a) * (t / h))
+        (std::array::from_fn(|lane| found[lane].start + t[lane]), density)
     }
 
     /// The density at `x`; 0 outside the knots.
     pub fn density(&self, x: f32) -> f32 {
-        let k = self.x.partition_point(|&knot| knot <= x);
-        if k == 0 || (k == self.x.len() && x > self.x[k - 1]) {
-            return 0.0;
-        }
-        let k = k.min(self.x.len() - 1);
-        let t = (x - self.x[k - 1]) / (self.x[k] - self.x[k - 1]);
-        self.density[k - 1] + (self.density[k] - self.density[k - 1]) * t
+        let k = self.segments.partition_point(|s| s.start <= x);
+        let Some(segment) = k.checked_sub(1).map(|k| self.segments[k]) else { return 0.0 };
+        let t = x - segment.start;
+        if t > segment.width { 0.0 } else { (segment.density + segment.slope * t).max(0.0) }
     }
 }
 

@@ -1,17 +1,27 @@
 //! Spectra compiled for rendering.
 
-use super::{LANES, SampledSpectrum, Wavelengths};
+use super::{SampledSpectrum, Wavelengths};
 
 /// A piecewise-linear function of wavelength with fast look-up; constant beyond its ends.
-///
-/// Knots may be as uneven as a lamp with narrow lines needs: an index per nanometre finds the segment.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SpectrumTable {
-    /// Start, value at the start, and slope of each segment; the first starts at −∞, the last ends at ∞.
-    segments: Vec<Segment>,
-    /// `guide[i]`: last segment that starts at or below `first_nm + i`.
-    guide: Vec<u32>,
-    first_nm: f32,
+pub struct SpectrumTable(Layout);
+
+#[derive(Debug, Clone, PartialEq)]
+enum Layout {
+    Constant(f32),
+    /// All knots at whole nanometres: value and slope of each nanometre from `first_nm` on. The first and the last stand
+    /// for what is beyond.
+    Uniform {
+        first_nm: f32,
+        pieces: Vec<[f32; 2]>,
+    },
+    /// Knots as uneven as a lamp with narrow lines needs: `guide[i]` is the last segment that starts at or below
+    /// `first_nm` + i. The first segment starts at −∞, the last ends at ∞.
+    Uneven {
+        first_nm: f32,
+        guide: Vec<u32>,
+        segments: Vec<Segment>,
+    },
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,60 +31,79 @@ struct Segment {
     slope: f32,
 }
 
+/// Longest table that is stored by nanometres.
+const MAX_UNIFORM: f64 = 4096.0;
+
 impl SpectrumTable {
     /// The same value everywhere.
     pub fn constant(value: f32) -> Self {
-        let segments = vec![Segment { start_nm: f32::NEG_INFINITY, value, slope: 0.0 }];
-        Self { segments, guide: Vec::new(), first_nm: 0.0 }
+        Self(Layout::Constant(value))
     }
 
     /// From strictly ascending knots in nm.
     pub fn new(lambda_nm: &[f64], values: &[f64]) -> Self {
+        let (first, last) = (lambda_nm[0], lambda_nm[lambda_nm.len() - 1]);
+        if values.iter().all(|v| *v == values[0]) {
+            return Self::constant(values[0] as f32);
+        }
+        if last - first < MAX_UNIFORM && lambda_nm.iter().all(|l| l.fract() == 0.0) {
+            return Self::uniform(lambda_nm, values);
+        }
         let flat = |start_nm, value: f64| Segment { start_nm, value: value as f32, slope: 0.0 };
         let mut segments = vec![flat(f32::NEG_INFINITY, values[0])];
         for (l, v) in lambda_nm.windows(2).zip(values.windows(2)) {
             let (start_nm, slope) = (l[0] as f32, ((v[1] - v[0]) / (l[1] - l[0])) as f32);
             segments.push(Segment { start_nm, value: v[0] as f32, slope });
         }
-        segments.push(flat(lambda_nm[lambda_nm.len() - 1] as f32, values[values.len() - 1]));
-        let first_nm = lambda_nm[0].floor() as f32;
-        let count = (lambda_nm[lambda_nm.len() - 1] as f32 - first_nm).ceil() as usize + 1;
+        segments.push(flat(last as f32, values[values.len() - 1]));
+        let first_nm = first.floor() as f32;
+        let count = (last as f32 - first_nm).ceil() as usize + 1;
         let guide =
             (0..count).map(|i| segments.partition_point(|s| s.start_nm <= first_nm + i as f32) as u32 - 1).collect();
-        Self { segments, guide, first_nm }
+        Self(Layout::Uneven { first_nm, guide, segments })
     }
 
-    /// The value, if it is the same at every wavelength.
-    pub fn as_constant(&self) -> Option<f32> {
-        let first = self.segments[0].value;
-        self.segments.iter().all(|s| s.value == first && s.slope == 0.0).then_some(first)
+    fn uniform(lambda_nm: &[f64], values: &[f64]) -> Self {
+        let mut pieces = vec![[values[0] as f32, 0.0]];
+        for (l, v) in lambda_nm.windows(2).zip(values.windows(2)) {
+            let slope = (v[1] - v[0]) / (l[1] - l[0]);
+            let steps = (l[1] - l[0]) as u32;
+            pieces.extend((0..steps).map(|i| [(v[0] + slope * f64::from(i)) as f32, slope as f32]));
+        }
+        pieces.push([values[values.len() - 1] as f32, 0.0]);
+        Self(Layout::Uniform { first_nm: lambda_nm[0] as f32 - 1.0, pieces })
     }
 
     /// The value at a wavelength.
     pub fn eval(&self, lambda_nm: f32) -> f32 {
-        let cell = lambda_nm - self.first_nm;
-        let mut k = if cell < 0.0 || self.guide.is_empty() {
-            0
-        } else {
-            self.guide[(cell as usize).min(self.guide.len() - 1)] as usize
+        let (value, slope, t) = match &self.0 {
+            Layout::Constant(value) => return *value,
+            Layout::Uniform { first_nm, pieces } => {
+                let cell = (lambda_nm - first_nm).max(0.0);
+                let k = (cell as usize).min(pieces.len() - 1);
+                let [value, slope] = pieces[k];
+                (value, slope, cell - k as f32)
+            }
+            Layout::Uneven { first_nm, guide, segments } => {
+                let cell = lambda_nm - first_nm;
+                let mut k = if cell < 0.0 { 0 } else { guide[(cell as usize).min(guide.len() - 1)] as usize };
+                while segments.get(k + 1).is_some_and(|next| next.start_nm <= lambda_nm) {
+                    k += 1;
+                }
+                let Segment { start_nm, value, slope } = segments[k];
+                (value, slope, if slope == 0.0 { 0.0 } else { lambda_nm - start_nm })
+            }
         };
-        while k + 1 < self.segments.len() && self.segments[k + 1].start_nm <= lambda_nm {
-            k += 1;
-        }
-        let Segment { start_nm, value, slope } = self.segments[k];
-        if slope == 0.0 { value } else { (value + (lambda_nm - start_nm) * slope).max(0.0) }
+        // Rounding must not make a spectrum negative that is 0 at a knot.
+        (value + slope * t).max(0.0)
     }
 
     /// The values at a path's wavelengths.
     pub fn sample(&self, wavelengths: &Wavelengths) -> SampledSpectrum {
-        if self.guide.is_empty() {
-            return SampledSpectrum::splat(self.segments[0].value);
+        match self.0 {
+            Layout::Constant(value) => SampledSpectrum::splat(value),
+            _ => SampledSpectrum::new(wavelengths.lambda_nm.map(|lambda_nm| self.eval(lambda_nm))),
         }
-        let mut lanes = [0.0; LANES];
-        for (lane, lambda) in lanes.iter_mut().zip(wavelengths.lambda_nm) {
-            *lane = self.eval(lambda);
-        }
-        SampledSpectrum::new(lanes)
     }
 }
 
@@ -94,7 +123,26 @@ mod tests {
         assert_eq!(table.eval(450.375), 2.5);
         assert!((table.eval(500.255) - 5.0).abs() < 0.02);
         assert_eq!(SpectrumTable::constant(0.25).eval(555.0), 0.25);
-        assert_eq!(table.as_constant(), None);
-        assert_eq!(SpectrumTable::new(&[400.0, 500.0], &[2.0, 2.0]).as_constant(), Some(2.0));
+        assert_eq!(SpectrumTable::new(&[400.0, 500.0], &[2.0, 2.0]), SpectrumTable::constant(2.0));
+    }
+
+    #[test]
+    fn whole_nanometres() {
+        let (l, v) = ([400.0, 405.0, 410.0, 700.0], [1.0, 3.0, 0.0, 2.9]);
+        let table = SpectrumTable::new(&l, &v);
+        for (at, expected) in [
+            (399.0, 1.0),
+            (399.5, 1.0),
+            (400.0, 1.0),
+            (402.5, 2.0),
+            (405.0, 3.0),
+            (409.0, 0.6),
+            (410.0, 0.0),
+            (555.5, 1.455),
+            (700.0, 2.9),
+            (900.0, 2.9),
+        ] {
+            assert!((table.eval(at) - expected).abs() < 1e-5, "{at}: {}", table.eval(at));
+        }
     }
 }

@@ -46,13 +46,8 @@ impl WavelengthDensity {
 
     /// Lane k is P⁻¹((k + u) / 8): the lanes are stratified among themselves, and with the samples of the pixel through u.
     pub fn sample(&self, u: f32) -> Wavelengths {
-        let mut wavelengths = Wavelengths { lambda_nm: [0.0; LANES], pdf: [0.0; LANES] };
-        for k in 0..LANES {
-            let (lambda, pdf) = self.0.sample((k as f32 + u) * (1.0 / LANES as f32));
-            wavelengths.lambda_nm[k] = lambda;
-            wavelengths.pdf[k] = pdf;
-        }
-        wavelengths
+        let (lambda_nm, pdf) = self.0.sample_many(std::array::from_fn(|k| (k as f32 + u) * (1.0 / LANES as f32)));
+        Wavelengths { lambda_nm, pdf }
     }
 
     /// Density at a wavelength, nm⁻¹.
