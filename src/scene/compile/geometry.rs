@@ -153,7 +153,7 @@ fn transform(steps: &[TransformStep]) -> Result<DAffine3> {
     Err(Error::new(ErrorKind::Degenerate, message))
 }
 
-/// Rotation about an axis through the origin, right-handed [Rodrigues1840]. Multiples of 90° are exact.
+/// Rotation about an axis through the origin, right-handed \[Rodrigues1840\]. Multiples of 90° are exact.
 fn rotation(axis: DVec3, degrees: f64) -> DMat3 {
     let turn = degrees.rem_euclid(360.0);
     let (sin, cos) = match turn {
