@@ -130,6 +130,7 @@ fn measure(name: &str, mesh: &Mesh, eye: Vec3) {
         else {
             continue;
         };
+        let normal = normal.as_vec3();
         let normal = if normal.dot(ray.direction) > 0.0 { -normal } else { normal };
         let direction = (normal + random.direction()).normalize_or(normal);
         let origin = offset_origin(point.point, point.error, normal, normal);

@@ -4,7 +4,7 @@
 //! reach a pixel goes through these wrappers over the `libm` crate (clippy forbids the others). Square roots, sums and
 //! products are exactly rounded everywhere and need no wrapper.
 
-/// Bound of the relative error of `n` chained f32 operations: n·u / (1 − n·u) with u = 2⁻²⁴ [Higham2002].
+/// Bound of the relative error of `n` chained f32 operations: n·u / (1 − n·u) with u = 2⁻²⁴ \[Higham2002\].
 pub const fn gamma(n: u32) -> f32 {
     let nu = n as f32 * (f32::EPSILON * 0.5);
     nu / (1.0 - nu)

@@ -1,7 +1,5 @@
 //! `abbe glass`: the catalogue of glasses, or one of them at chosen wavelengths.
 
-use std::io::Write;
-
 use serde_json::{Value, json};
 
 use crate::io::catalogue::{self, GlassEntry};
@@ -32,11 +30,7 @@ pub fn run(args: &GlassArgs) -> Result<()> {
     for warning in warnings {
         eprintln!("warning: {warning}");
     }
-    match std::io::stdout().lock().write_all(text.as_bytes()) {
-        // Whoever reads has seen enough, as in `abbe glass | head`.
-        Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        result => result.map_err(|e| Error::new(ErrorKind::Io, format!("writing to stdout failed: {e}"))),
-    }
+    super::write_data(&mut std::io::stdout().lock(), text.as_bytes())
 }
 
 /// What the command prints.

@@ -87,6 +87,14 @@ fn run(command: &Command) -> Result<ExitCode> {
     }
 }
 
+/// Writes data to stdout. A reader that has seen enough, as in `abbe glass | head`, is no error.
+fn write_data(out: &mut dyn Write, bytes: &[u8]) -> Result<()> {
+    match out.write_all(bytes).and_then(|()| out.flush()) {
+        Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        result => result.map_err(|e| Error::new(ErrorKind::Io, format!("writing to stdout failed: {e}"))),
+    }
+}
+
 fn not_yet(name: &str, args: &NotYet) -> Result<ExitCode> {
     let with = if args.arguments.is_empty() { "" } else { " (and its arguments)" };
     Err(Error::new(ErrorKind::Usage, format!("`abbe {name}`{with} is not there yet")))

@@ -1,6 +1,6 @@
 //! `abbe render`: a scene in, pictures out.
 
-use super::process;
+use super::{process, write_data};
 use crate::develop::{self, Tonemap};
 use crate::film::Film;
 use crate::io::exr::Attributes;
@@ -23,7 +23,8 @@ use std::time::{Duration, Instant};
 pub struct RenderArgs {
     /// Scene file; - is stdin
     pub scene: PathBuf,
-    /// Picture to write, .exr or .png; may be repeated. Default: the scene's name with .exr and .png, here
+    /// Picture to write, .exr or .png, or - for EXR on stdout; may be repeated. Default: the scene's name with .exr and
+    /// .png, here
     #[arg(short, long = "output", value_name = "FILE")]
     pub output: Vec<PathBuf>,
     /// Samples per pixel
@@ -104,7 +105,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
 
     let seconds = started.elapsed().as_secs_f64();
     write_outputs(&outputs, &film, &description, &compiled, &statistics, seconds, args.verbose)?;
-    report(args, &outputs, &film, &statistics, seconds);
+    report(args, &outputs, &film, &statistics, seconds)?;
     Ok(if statistics.complete { ExitCode::SUCCESS } else { ExitCode::from(super::INTERRUPTED) })
 }
 
@@ -132,9 +133,12 @@ fn outputs(args: &RenderArgs) -> Result<Vec<PathBuf>> {
         };
         return Ok(["exr", "png"].map(|extension| Path::new(stem).with_extension(extension)).to_vec());
     }
-    for path in &args.output {
+    if args.json && args.output.iter().any(|path| is_stdout(path)) {
+        return Err(usage("-o - and --json both write to stdout; expected one of them"));
+    }
+    for path in args.output.iter().filter(|path| !is_stdout(path)) {
         if extension(path).is_none() {
-            let message = format!("-o {}: expected a name that ends in .exr or .png", path.display());
+            let message = format!("-o {}: expected a name that ends in .exr or .png, or -", path.display());
             return Err(usage(message));
         }
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
@@ -153,7 +157,14 @@ enum Format {
     Png,
 }
 
+fn is_stdout(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
 fn extension(path: &Path) -> Option<Format> {
+    if is_stdout(path) {
+        return Some(Format::Exr);
+    }
     match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
         "exr" => Some(Format::Exr),
         "png" => Some(Format::Png),
@@ -308,7 +319,10 @@ fn write_outputs(
                 png::encode(&picture)?
             }
         };
-        write_atomically(path, &bytes)?;
+        match is_stdout(path) {
+            true => write_data(&mut std::io::stdout().lock(), &bytes)?,
+            false => write_atomically(path, &bytes)?,
+        }
     }
     Ok(())
 }
@@ -323,7 +337,7 @@ fn scene_hash(path: &Path) -> u64 {
     })
 }
 
-fn report(args: &RenderArgs, outputs: &[PathBuf], film: &Film, statistics: &Statistics, seconds: f64) {
+fn report(args: &RenderArgs, outputs: &[PathBuf], film: &Film, statistics: &Statistics, seconds: f64) -> Result<()> {
     let error = film.estimated_relative_mse();
     let pixels = u64::from(film.width()) * u64::from(film.height());
     let camera = statistics.camera_paths;
@@ -359,9 +373,10 @@ fn report(args: &RenderArgs, outputs: &[PathBuf], film: &Film, statistics: &Stat
             "peak_memory_bytes": process::peak_memory_bytes(),
             "outputs": outputs,
         });
-        println!("{value}");
+        write_data(&mut std::io::stdout().lock(), format!("{value}\n").as_bytes())?;
     } else if !args.quiet && std::io::stderr().is_terminal() {
         let names: Vec<String> = outputs.iter().map(|p| p.display().to_string()).collect();
         eprintln!("{} in {seconds:.1} s", names.join(", "));
     }
+    Ok(())
 }

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 use serde_json::{Value, json};
 
+use super::write_data;
+use crate::scene::compile;
 use crate::scene::description::{self, Parsed};
 use crate::{Error, ErrorKind, Result};
 
@@ -71,18 +73,19 @@ pub fn run(args: &SceneArgs, out: &mut dyn Write, err: &mut dyn Write) -> Result
         SceneCommand::Check(args) => check(args, out, err),
         SceneCommand::Schema => {
             let text = serde_json::to_string_pretty(&description::schema()).map_err(|error| failed(&error))?;
-            writeln!(out, "{text}").map_err(|error| failed(&error))
+            write_data(out, format!("{text}\n").as_bytes())
         }
         SceneCommand::Export(_) => Err(Error::new(ErrorKind::Usage, "`abbe scene export` is not supported yet")),
     }
 }
 
-/// Parses one scene; `-` is stdin.
+/// Parses and compiles one scene, so that the files, glasses and colours it names are looked up too; `-` is stdin.
 pub fn check_one(path: &Path) -> Result<Summary> {
-    let Parsed { description, warnings } = match path.as_os_str() == "-" {
+    let Parsed { description, mut warnings } = match path.as_os_str() == "-" {
         true => description::parse_reader(std::io::stdin().lock(), Path::new("<stdin>"))?,
         false => description::parse_file(path)?,
     };
+    warnings.extend(compile(&description)?.warnings);
     Ok(Summary {
         objects: description.objects.len(),
         materials: description.materials.len(),
@@ -101,7 +104,7 @@ fn check(args: &CheckArgs, out: &mut dyn Write, err: &mut dyn Write) -> Result<(
             scenes.push(report(path, &checked));
         }
         match checked {
-            Ok(summary) => print(args, path, &summary, out, err).map_err(|error| failed(&error))?,
+            Ok(summary) => print(args, path, &summary, out, err)?,
             Err(error) => {
                 if let Some(earlier) = last_error.replace(error) {
                     writeln!(err, "{earlier}").map_err(|error| failed(&error))?;
@@ -110,23 +113,17 @@ fn check(args: &CheckArgs, out: &mut dyn Write, err: &mut dyn Write) -> Result<(
         }
     }
     if args.json {
-        writeln!(out, "{}", json!({ "scenes": scenes })).map_err(|error| failed(&error))?;
+        write_data(out, format!("{}\n", json!({ "scenes": scenes })).as_bytes())?;
     }
     last_error.map_or(Ok(()), Err)
 }
 
-fn print(
-    args: &CheckArgs,
-    path: &Path,
-    summary: &Summary,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> std::io::Result<()> {
+fn print(args: &CheckArgs, path: &Path, summary: &Summary, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     if args.quiet {
         return Ok(());
     }
     for warning in &summary.warnings {
-        writeln!(err, "warning: {warning}")?;
+        writeln!(err, "warning: {warning}").map_err(|error| failed(&error))?;
     }
     if args.json {
         return Ok(());
@@ -134,14 +131,14 @@ fn print(
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
     let spectra =
         if summary.spectra == 1 { "1 named spectrum".into() } else { format!("{} named spectra", summary.spectra) };
-    writeln!(
-        out,
-        "{}: ok: {}, {}, {}, {spectra}",
+    let line = format!(
+        "{}: ok: {}, {}, {}, {spectra}\n",
         path.display(),
         count(summary.objects, "object"),
         count(summary.materials, "material"),
         count(summary.lights, "light")
-    )
+    );
+    write_data(out, line.as_bytes())
 }
 
 /// One scene's result as JSON.

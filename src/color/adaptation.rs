@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-/// Cone-like responses of the Bradford transform [Lam1985].
+/// Cone-like responses of the Bradford transform \[Lam1985\].
 const BRADFORD: DMat3 = DMat3::from_cols(
     DVec3::new(0.8951, -0.7502, 0.0389),
     DVec3::new(0.2664, 1.7135, -0.0685),

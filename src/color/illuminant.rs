@@ -22,7 +22,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     FAMILIES.into_iter().flat_map(table::column_names)
 }
 
-/// An illuminant of CIE 15 [CIE15], scaled to Y = 1: ∫ S ȳ dλ = ∫ ȳ dλ.
+/// An illuminant of CIE 15 \[CIE15\], scaled to Y = 1: ∫ S ȳ dλ = ∫ ȳ dλ.
 ///
 /// The samples are joined by straight lines and held constant beyond the table's ends (380 or 300 nm, 780 or 830 nm).
 ///

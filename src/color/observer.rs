@@ -20,7 +20,7 @@ pub struct Observer {
 }
 
 impl Observer {
-    /// The CIE 1931 standard observer for a field of 2° [CIE15].
+    /// The CIE 1931 standard observer for a field of 2° \[CIE15\].
     pub fn cie_1931_2deg() -> &'static Observer {
         &CIE_1931_2DEG
     }

@@ -56,7 +56,7 @@ impl RgbSpace {
         SPACES.as_slice()
     }
 
-    /// IEC 61966-2-1 sRGB, the space of Rec. 709 [IEC61966].
+    /// IEC 61966-2-1 sRGB, the space of Rec. 709 \[IEC61966\].
     pub fn srgb() -> &'static RgbSpace {
         &SPACES[0]
     }
@@ -80,7 +80,7 @@ impl RgbSpace {
     }
 }
 
-/// Linear component to encoded sRGB component [IEC61966]; 0 and 1 map to themselves.
+/// Linear component to encoded sRGB component \[IEC61966\]; 0 and 1 map to themselves.
 ///
 /// Below 0 the straight segment goes on, above 1 the power.
 pub fn srgb_encode(linear: f64) -> f64 {

@@ -2,7 +2,7 @@
 //!
 //! A spectrum is `link(z)` at knots 1 nm apart. Of all z with ∑ wⱼ link(zⱼ) = target (three equations, the colour) we
 //! take the one with the least ∑ (zⱼ₊₁ − zⱼ)². With the logistic link this is the "least hyperbolic tangent slope
-//! squared" of [Burns2019]; with the exponential one it is the positive, scale-free curve for emissions.
+//! squared" of \[Burns2019\]; with the exponential one it is the positive, scale-free curve for emissions.
 //!
 //! Gauss–Newton steps (linear in the number of knots, since the smoothest curve under linear constraints is a double
 //! running sum) come near the solution; Newton steps on the whole system (tridiagonal) finish it to rounding.

@@ -1,6 +1,6 @@
 //! Spectra from RGB: the smoothest reflectance and the smoothest emission of a colour.
 //!
-//! A reflectance is the r in [0, 1] with the smoothest logit ([Burns2019], "least hyperbolic tangent slope squared"),
+//! A reflectance is the r in [0, 1] with the smoothest logit (\[Burns2019\], "least hyperbolic tangent slope squared"),
 //! an emission the positive curve with the smoothest logarithm. Both are tables with knots 1 nm apart, solved so that
 //! the exact rule of integration gives the colour back to about 1e-12.
 //!

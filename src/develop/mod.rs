@@ -11,7 +11,7 @@ pub enum Tonemap {
     Srgb,
     /// 1 − exp(−x) on each channel.
     Exponential,
-    /// Y / (1 + Y) on luminance, colour kept [Reinhard2002].
+    /// Y / (1 + Y) on luminance, colour kept \[Reinhard2002\].
     Reinhard,
 }
 

@@ -29,7 +29,7 @@ impl Filter {
         Self::tabulated(radius, |x| math::exp(-4.5 * x * x) - math::exp(-4.5))
     }
 
-    /// The four-term Blackman–Harris window [Harris1978] stretched to `radius`.
+    /// The four-term Blackman–Harris window \[Harris1978\] stretched to `radius`.
     pub fn blackman_harris(radius: f64) -> Self {
         Self::tabulated(radius, |x| {
             let cos = |k: f64| math::cos(k * PI * (x + 1.0));

@@ -53,7 +53,7 @@ mod tests {
         let sensor = Sensor::new(360.0, &matching);
         let density =
             WavelengthDensity::new(&l, &vec![1.0; 471], &l.iter().map(|&l| bell(l, 540.0)).collect::<Vec<_>>());
-        let n = 256;
+        let n = 2048;
         let mut mean = [0.0; 3];
         for i in 0..n {
             let w = density.sample((i as f32 + 0.5) / n as f32);
@@ -61,8 +61,8 @@ mod tests {
             (0..3).for_each(|c| mean[c] += xyz[c] / f64::from(n));
         }
         let area = |c: usize| matching.windows(2).map(|w| 0.5 * (w[0][c] + w[1][c])).sum::<f64>();
-        for c in 0..3 {
-            assert!((mean[c] - area(c) / area(1)).abs() < 1e-4, "{c}: {}", mean[c]);
+        for (c, mean) in mean.into_iter().enumerate() {
+            assert!((mean - area(c) / area(1)).abs() < 1e-4, "{c}: {mean} {}", area(c) / area(1));
         }
     }
 }

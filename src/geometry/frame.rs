@@ -30,7 +30,7 @@ impl Frame {
     }
 }
 
-/// Two unit vectors that make a right-handed frame with the unit vector `n` as third [Duff2017].
+/// Two unit vectors that make a right-handed frame with the unit vector `n` as third \[Duff2017\].
 pub fn orthonormal_basis(n: Vec3) -> (Vec3, Vec3) {
     let sign = 1.0f32.copysign(n.z);
     let a = -1.0 / (sign + n.z);

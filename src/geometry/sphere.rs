@@ -31,7 +31,7 @@ impl Sphere {
 ///
 /// The discriminant is r² minus the squared perpendicular from the centre, not b² − 4ac, which cancels far away; the
 /// root on the origin's side comes from the product of roots, so that its sign is the sign of |o| − r even if the origin
-/// is within rounding error of the surface [Haines2019].
+/// is within rounding error of the surface \[Haines2019\].
 pub(super) fn ball_span(o: DVec3, d: DVec3, radius: f64) -> Option<(f64, f64)> {
     let a = d.dot(d);
     let inverse = 1.0 / a;

@@ -5,7 +5,7 @@ use crate::math::gamma;
 use glam::{DVec3, Vec3};
 
 /// A ray's frame for the watertight triangle test: the axes are permuted so that the direction's largest component
-/// comes last, and sheared so that the direction becomes that axis [Woop2013].
+/// comes last, and sheared so that the direction becomes that axis \[Woop2013\].
 ///
 /// The sign of an edge function of the sheared, rounded vertices cannot come out wrong (the two products are rounded
 /// monotonically), only 0; edges are inclusive, so triangles that share vertices leave no gap between them.
@@ -109,7 +109,7 @@ pub fn triangle_area(v0: Vec3, v1: Vec3, v2: Vec3) -> f32 {
 }
 
 /// Barycentrics uniform over a triangle's area from a point of the unit square [0, 1)². The map is continuous and
-/// keeps neighbours together, so a well-spread point set stays so [Heitz2019]. The weights are ≥ 0 and sum to 1 up to
+/// keeps neighbours together, so a well-spread point set stays so \[Heitz2019\]. The weights are ≥ 0 and sum to 1 up to
 /// rounding.
 pub fn sample_triangle(u: [f32; 2]) -> [f32; 3] {
     let (b0, b1) = if u[0] < u[1] {
@@ -158,11 +158,11 @@ mod tests {
 
     #[test]
     fn normals_point_to_the_counter_clockwise_side() {
-        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X, Vec3::Y), Some(Vec3::Z));
-        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::Y, Vec3::X), Some(-Vec3::Z));
+        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X, Vec3::Y), Some(DVec3::Z));
+        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::Y, Vec3::X), Some(-DVec3::Z));
         assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X, Vec3::X * 2.0), None);
         let tiny = 1e-30;
-        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X * tiny, Vec3::Y * tiny), Some(Vec3::Z));
+        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X * tiny, Vec3::Y * tiny), Some(DVec3::Z));
         assert_eq!(triangle_area(Vec3::ZERO, Vec3::X * 2.0, Vec3::Y * 3.0), 3.0);
     }
 

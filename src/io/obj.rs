@@ -1,4 +1,4 @@
-//! Wavefront OBJ [Wavefront1995]: `v`, `vt`, `vn` and `f`; every other statement (groups, materials, lines, curves) is
+//! Wavefront OBJ \[Wavefront1995\]: `v`, `vt`, `vn` and `f`; every other statement (groups, materials, lines, curves) is
 //! passed over.
 
 use crate::geometry::Mesh;

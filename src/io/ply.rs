@@ -1,4 +1,4 @@
-//! PLY [Turk1994], ASCII and both binary encodings, over the crate `ply-rs-bw`. What its headers announce is held against
+//! PLY \[Turk1994\], ASCII and both binary encodings, over the crate `ply-rs-bw`. What its headers announce is held against
 //! the file's length before anything is read, so that time and memory stay in proportion to the file.
 
 use crate::geometry::Mesh;

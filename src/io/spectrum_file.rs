@@ -29,7 +29,7 @@ enum Format {
 /// * `.csv`, `.txt`, `.tsv`, `.dat`: two columns with a comma, semicolon, tab or blanks between; comments from `#`; an
 ///   optional first line of column names.
 /// * `.spd`: pairs of numbers with white space between; comments from `#`.
-/// * `.spdx`, `.xml`: IES TM-27 [TM27], the `SpectralData` elements.
+/// * `.spdx`, `.xml`: IES TM-27 \[TM27\], the `SpectralData` elements.
 ///
 /// # Errors
 /// A file that does not exist, is not a file, is larger than [`MAX_BYTES`] or not UTF-8; anything that is not a number;

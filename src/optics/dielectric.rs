@@ -69,7 +69,7 @@ mod tests {
                 2 => critical + math::pow(10.0, -8.0 * x),
                 _ => std::f64::consts::FRAC_PI_2 - math::pow(10.0, -7.0 * x),
             };
-            math::cos(theta.clamp(0.0, 1.570796)) as f32 as f64
+            math::cos(theta.clamp(0.0, std::f64::consts::FRAC_PI_2 - 3e-7)) as f32 as f64
         })
     }
 

@@ -1,7 +1,7 @@
 //! Dispersion formulas: index of refraction as a function of wavelength, the nine of refractiveindex.info.
 //!
 //! Wavelengths are in micrometres inside this file, as in the formulas' coefficients; everywhere else abbe uses
-//! nanometres. The formulas are numbered and written as in [Polyanskiy2024].
+//! nanometres. The formulas are numbered and written as in \[Polyanskiy2024\].
 
 use crate::{Error, ErrorKind, Result, math};
 

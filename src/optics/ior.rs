@@ -22,7 +22,7 @@ pub const LINE_C_NM: f64 = 656.2725;
 /// Mercury g line, nm.
 pub const LINE_G_NM: f64 = 435.8343;
 
-/// Fraunhofer's name and wavelength (nm) of the spectral lines that glass catalogues quote [ISO7944].
+/// Fraunhofer's name and wavelength (nm) of the spectral lines that glass catalogues quote \[ISO7944\].
 pub const FRAUNHOFER_LINES: [(&str, f64); 13] = [
     ("i", 365.0146),
     ("h", 404.6561),

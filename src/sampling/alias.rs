@@ -11,7 +11,7 @@ pub struct Draw {
     pub rest: f32,
 }
 
-/// Draws an index in proportion to weights [Vose1991].
+/// Draws an index in proportion to weights \[Vose1991\].
 #[derive(Debug, Clone, Default)]
 pub struct AliasTable {
     /// Share of column i that is i itself, and what the rest is.

@@ -1,6 +1,6 @@
 //! Weights for combining sampling techniques.
 
-/// The balance heuristic [Veach1997]: weight of the technique with density `this` against one with density `other`, per
+/// The balance heuristic \[Veach1997\]: weight of the technique with density `this` against one with density `other`, per
 /// sample of each. Written so that huge densities do not overflow.
 pub fn balance_heuristic(this: f32, other: f32) -> f32 {
     if this >= other { 1.0 / (1.0 + other / this) } else { 1.0 - balance_heuristic(other, this) }

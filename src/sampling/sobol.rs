@@ -1,6 +1,6 @@
 //! Owen-scrambled Sobol points with random access.
 //!
-//! Eight dimensions form a *group*: one eight-dimensional Sobol net [JoeKuo2008], Owen-scrambled by a hash of its own
+//! Eight dimensions form a *group*: one eight-dimensional Sobol net \[JoeKuo2008\], Owen-scrambled by a hash of its own
 //! [LaineKarras2011, Burley2020, Vegdahl2021]. Groups are made independent by scrambling the order of the points as
 //! well, so there is no last dimension. An index has 64 bits: every 2³² points the scramble is drawn anew.
 
@@ -31,7 +31,7 @@ impl Sobol {
     }
 }
 
-/// Mixes 64 bits so that every input bit changes every output bit with probability about one half [Steele2014].
+/// Mixes 64 bits so that every input bit changes every output bit with probability about one half \[Steele2014\].
 pub fn mix(mut x: u64) -> u64 {
     x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -39,7 +39,7 @@ pub fn mix(mut x: u64) -> u64 {
     x ^ (x >> 31)
 }
 
-/// Degree, inner coefficients and first direction numbers of the primitive polynomials of dimensions 1–7 [JoeKuo2008];
+/// Degree, inner coefficients and first direction numbers of the primitive polynomials of dimensions 1–7 \[JoeKuo2008\];
 /// dimension 0 is the van der Corput sequence.
 const POLYNOMIALS: [(usize, u32, [u32; 5]); DIMENSIONS - 1] = [
     (1, 0, [1, 0, 0, 0, 0]),
@@ -116,7 +116,7 @@ fn sobol_reversed(index: u32) -> u32x8 {
     bits
 }
 
-/// Owen scrambling of a bit-reversed number by a hash in which every bit depends on the lower bits alone [Vegdahl2021].
+/// Owen scrambling of a bit-reversed number by a hash in which every bit depends on the lower bits alone \[Vegdahl2021\].
 fn laine_karras(mut x: u32, seed: u32) -> u32 {
     x ^= x.wrapping_mul(0x3d20_adea);
     x = x.wrapping_add(seed);
@@ -162,9 +162,8 @@ mod tests {
         for x in (0..100u32).map(|i| mix(u64::from(i)) as u32) {
             let seeds = lane_seeds(x);
             let lanes = reverse_bits(laine_karras_lanes(sobol_reversed(x), seeds)).to_array();
-            for lane in 0..8 {
-                let plain = sobol_reversed(x).to_array()[lane];
-                assert_eq!(lanes[lane], laine_karras(plain, seeds.to_array()[lane]).reverse_bits());
+            for ((lane, plain), seed) in lanes.into_iter().zip(sobol_reversed(x).to_array()).zip(seeds.to_array()) {
+                assert_eq!(lane, laine_karras(plain, seed).reverse_bits());
             }
         }
     }

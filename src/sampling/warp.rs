@@ -4,7 +4,7 @@ use crate::math;
 use glam::Vec3;
 use std::f32::consts::{FRAC_PI_4, PI, TAU};
 
-/// Uniform points on the unit disc [ShirleyChiu1997].
+/// Uniform points on the unit disc \[ShirleyChiu1997\].
 pub fn concentric_disk(u: [f32; 2]) -> [f32; 2] {
     let (a, b) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
     if a == 0.0 && b == 0.0 {

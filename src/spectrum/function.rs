@@ -9,11 +9,11 @@ pub const LAMBDA_MIN_NM: f64 = 360.0;
 /// Longest wavelength of the rendering range, nm.
 pub const LAMBDA_MAX_NM: f64 = 830.0;
 
-/// Planck constant, J·s (exact, [SI2019]).
+/// Planck constant, J·s (exact, \[SI2019\]).
 const PLANCK: f64 = 6.626_070_15e-34;
-/// Speed of light, m/s (exact, [SI2019]).
+/// Speed of light, m/s (exact, \[SI2019\]).
 const LIGHT_SPEED: f64 = 299_792_458.0;
-/// Boltzmann constant, J/K (exact, [SI2019]).
+/// Boltzmann constant, J/K (exact, \[SI2019\]).
 const BOLTZMANN: f64 = 1.380_649e-23;
 /// First radiation constant for radiance 2hc², W·m²·sr⁻¹.
 const C1_RADIANCE: f64 = 2.0 * PLANCK * LIGHT_SPEED * LIGHT_SPEED;
@@ -167,7 +167,7 @@ impl Spectrum {
     }
 }
 
-/// Spectral radiance of a blackbody in vacuum, W·m⁻²·sr⁻¹·nm⁻¹ [Planck1901], with the exact SI constants.
+/// Spectral radiance of a blackbody in vacuum, W·m⁻²·sr⁻¹·nm⁻¹ \[Planck1901\], with the exact SI constants.
 ///
 /// Positive wavelength in nm, positive temperature in K; 0 where the radiance is below the smallest f64.
 pub fn planck_radiance(lambda_nm: f64, kelvin: f64) -> f64 {

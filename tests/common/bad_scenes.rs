@@ -232,5 +232,13 @@ const COMPILED: &[Edit] = &[
     ("index file missing", "\"ior\": 1.5", "\"ior\": {\"file\": \"no/such.yml\"}", "file_not_found", "materials.glass.ior.file", "no/such.yml"),
     ("index table too short", "\"ior\": 1.5", "\"ior\": {\"wavelengths_nm\": [500, 600], \"values\": [1.5, 1.49]}", "out_of_range", "materials.glass.ior", "500"),
     ("mesh missing", FIRST_SHAPE, "{\"type\": \"mesh\", \"file\": \"no/such.obj\"}", "file_not_found", "objects[0].shape.file", "no/such.obj"),
+    ("pole in the visible", "\"ior\": 1.5", "\"ior\": {\"sellmeier\": {\"b\": [1], \"c_um2\": [0.2]}}", "out_of_range", "materials.glass.ior", "a pole at 447.214 nm"),
+    ("negative index", "\"ior\": 1.5", "\"ior\": {\"cauchy_um\": [-3]}", "out_of_range", "materials.glass.ior", "the index at 360 nm is -3"),
+    ("index beyond belief", "\"ior\": 1.5", "\"ior\": {\"nd\": 1.5, \"vd\": 0.01}", "out_of_range", "materials.glass.ior", "at most 100"),
+    ("blackbody too cold", "\"intensity\": 1.0", "\"intensity\": {\"blackbody_kelvin\": 1e-3}", "out_of_range", "lights[0].intensity.blackbody_kelvin", "luminance 0"),
+    ("emission outside the locus", "\"intensity\": 1.0", "\"intensity\": {\"rgb\": [0, 0, 1], \"space\": \"rec2020\"}", "out_of_range", "lights[0].intensity.rgb", "less saturated"),
+    ("transform underflows", "\"material\": \"glass\"", "\"material\": \"glass\", \"transform\": [{\"scale\": 1e-30}, {\"scale\": 1e-30}, {\"scale\": 1e-30}, {\"scale\": 1e-30}]", "degenerate", "objects[1].transform", "singular"),
+    ("transform too uneven", "\"material\": \"glass\"", "\"material\": \"glass\", \"transform\": [{\"scale\": [1e25, 1e-25, 1]}]", "degenerate", "objects[1].transform", "expected below 1e12"),
+    ("integrator of later", "\"render\": {}", "\"render\": {\"integrator\": \"merge\"}", "unsupported", "render.integrator", "\"auto\", \"path\" or \"light\""),
     ("illuminant as reflectance", "\"reflectance\": \"red_paint\"", "\"reflectance\": {\"illuminant\": \"D65\"}", "out_of_range", "materials.floor.reflectance", "[0, 1]"),
 ];

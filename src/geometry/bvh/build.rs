@@ -1,4 +1,4 @@
-//! The builder's first half: a binary tree by the binned surface-area heuristic [Wald2007], in parallel. Every choice
+//! The builder's first half: a binary tree by the binned surface-area heuristic \[Wald2007\], in parallel. Every choice
 //! depends on exact minima, maxima and counts alone, so the tree is the same for any number of threads.
 
 use super::super::Aabb;

@@ -1,5 +1,5 @@
 //! The builder's second half: the binary tree becomes one of eight children a node, at the least expected cost, found
-//! exactly by dynamic programming [Ylitie2017].
+//! exactly by dynamic programming \[Ylitie2017\].
 
 use super::super::Aabb;
 use super::build::{Item, Subtree};

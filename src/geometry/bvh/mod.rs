@@ -2,8 +2,8 @@
 //! and a closure.
 //!
 //! Built by the binned surface-area heuristic, collapsed to eight children at least cost, traversed eight boxes or eight
-//! triangles at a time [Wald2008], [Ylitie2017]. Nothing leaks: triangles are tested watertight [Woop2013], boxes
-//! conservatively [Ize2013]. Nothing depends on the number of threads, on the instruction set or on the order in which
+//! triangles at a time \[Wald2008\], \[Ylitie2017\]. Nothing leaks: triangles are tested watertight \[Woop2013\], boxes
+//! conservatively \[Ize2013\]. Nothing depends on the number of threads, on the instruction set or on the order in which
 //! nodes are visited: of hits at equal distance the primitive that comes first wins.
 
 mod build;

@@ -14,7 +14,7 @@ pub(super) const PACKET: usize = 8;
 type PacketLanes = f32x8;
 
 /// Growth of a far plane's distance: the near one carries three roundings, the far one four, (1 + γ₃)/(1 − γ₄) < 1 + 8u
-/// [Ize2013].
+/// \[Ize2013\].
 const FAR_GROWTH: f32 = 1.0 + 4.0 * f32::EPSILON;
 
 /// What a child is, packed in 32 bits: two for the kind, the rest an index.
@@ -179,7 +179,7 @@ impl Packet {
     }
 
     /// Distances and the mask of the triangles that the ray meets within (0, limit]; the watertight test of
-    /// [Woop2013], see [`ShearedRay`]. Both faces count.
+    /// \[Woop2013\], see [`ShearedRay`]. Both faces count.
     #[inline(always)]
     pub fn intersect(&self, ray: &RayLanes, limit: f32) -> (PacketLanes, u32) {
         let [x, y, z] = ray.axes;

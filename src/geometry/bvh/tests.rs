@@ -488,7 +488,7 @@ fn a_ray_that_leaves_a_surface_does_not_meet_it_again() {
             let corners = soup.corners(id);
             let hit = TriangleHit::new(&ray, corners).expect("the same hit");
             let [a, b, c] = corners;
-            let normal = geometric_normal(a, b, c).expect("a normal");
+            let normal = geometric_normal(a, b, c).expect("a normal").as_vec3();
             let outwards = if normal.dot(ray.direction) > 0.0 { normal } else { -normal };
             let direction = random.direction();
             let direction = if direction.dot(outwards) < 0.0 { -direction } else { direction };

@@ -7,7 +7,7 @@ use super::roots::Field;
 use super::{Box3, positive};
 use crate::{Error, ErrorKind, Result};
 
-/// A wall about the gyroid g = sin x cos y + sin y cos z + sin z cos x = 0 [Schoen1970] (coordinates times 2π/period),
+/// A wall about the gyroid g = sin x cos y + sin y cos z + sin z cos x = 0 \[Schoen1970\] (coordinates times 2π/period),
 /// cut by a sphere about the origin: max(|g|/(√3 · 2π/period) − thickness/2, (|p|² − R²)/2R) = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gyroid {

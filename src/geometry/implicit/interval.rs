@@ -1,4 +1,4 @@
-//! Interval arithmetic with outward rounding [Moore2009].
+//! Interval arithmetic with outward rounding \[Moore2009\].
 
 use std::ops::{Add, Mul, Sub};
 

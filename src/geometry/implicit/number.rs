@@ -21,7 +21,7 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
     fn sin_cos(self) -> (Self, Self);
     /// (|a|ᵖ + |b|ᵖ)^(1/p) with p ≥ 1: a norm, so it changes no faster than its arguments.
     fn norm(self, other: Self, p: f64) -> Self;
-    /// Smooth minimum: min(a, b) − k h³/6 with h = max(1 − |a − b|/k, 0), the cubic polynomial of [Quilez2013]. Twice
+    /// Smooth minimum: min(a, b) − k h³/6 with h = max(1 − |a − b|/k, 0), the cubic polynomial of \[Quilez2013\]. Twice
     /// continuously differentiable, equal to the minimum where |a − b| ≥ `width` k, and never more than k/6 below it.
     fn smooth_min(self, other: Self, width: f64) -> Self;
 }

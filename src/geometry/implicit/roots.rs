@@ -1,5 +1,5 @@
 //! The first crossing of an implicit surface along a ray: isolated by interval enclosures of the function and of its
-//! derivative, then refined in a bracket [Mitchell1990].
+//! derivative, then refined in a bracket \[Mitchell1990\].
 
 use glam::DVec3;
 

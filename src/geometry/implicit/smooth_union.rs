@@ -7,7 +7,7 @@ use super::roots::Field;
 use super::{Box3, positive};
 use crate::{Error, ErrorKind, Result};
 
-/// The smooth minimum [Quilez2013] of the spheres' algebraic distances (|p − c|² − r²)/2r, folded in the order given.
+/// The smooth minimum \[Quilez2013\] of the spheres' algebraic distances (|p − c|² − r²)/2r, folded in the order given.
 /// The cubic polynomial keeps curvature continuous, so reflections show no seam, and where distances differ by more
 /// than `blend` every sphere is exactly a sphere.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,7 +7,7 @@ use super::roots::Field;
 use super::{Box3, positive};
 use crate::{Error, ErrorKind, Result};
 
-/// A superellipsoid [Barr1981], written with norms: ‖(‖(x/a, z/c)‖_p, y/b)‖_q = 1 with p = 2/e₂ and q = 2/e₁. That is
+/// A superellipsoid \[Barr1981\], written with norms: ‖(‖(x/a, z/c)‖_p, y/b)‖_q = 1 with p = 2/e₂ and q = 2/e₁. That is
 /// the usual formula's surface, but its slope is bounded everywhere: no power below 1 occurs, even where x, y or z is 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Superquadric {

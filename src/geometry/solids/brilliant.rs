@@ -25,7 +25,7 @@ pub struct BrilliantCut {
 }
 
 impl Default for BrilliantCut {
-    /// A cut near Tolkowsky's [Tolkowsky1919] as laboratories grade it today, of radius 1.
+    /// A cut near Tolkowsky's \[Tolkowsky1919\] as laboratories grade it today, of radius 1.
     fn default() -> Self {
         Self {
             radius: 1.0,

@@ -55,23 +55,27 @@ pub fn place(description: &SceneDescription, warnings: &mut Vec<String>) -> Resu
 fn place_object(object: &ObjectDescription) -> Result<Placed> {
     let at = format!("{}.shape", object.at);
     let here = |e: Error| if e.place.is_empty() { e.at(at.clone()) } else { e };
-    let transform = transform(&object.transform).map_err(|e| e.at(format!("{}.transform", object.at)))?;
+    let transform_at = format!("{}.transform", object.at);
+    let transform = transform(&object.transform).map_err(|e| e.at(transform_at.clone()))?;
+    // What is wrong with a good shape once it is placed is wrong with the transform, if it has one.
+    let placed_at = if object.transform.is_empty() { at.clone() } else { transform_at };
+    let there = |e: Error| e.at(placed_at.clone());
     let mesh = match &object.shape {
         ShapeDescription::Sphere { center, radius } => {
             let sphere = Sphere::new(DVec3::from(*center), *radius).map_err(here)?;
-            return analytic(AnalyticShape::Sphere(sphere), transform).map_err(here);
+            return analytic(AnalyticShape::Sphere(sphere), transform).map_err(there);
         }
         ShapeDescription::Disk { center, normal, radius } => {
             let disk = Disk::new(DVec3::from(*center), DVec3::from(*normal), *radius).map_err(here)?;
-            return analytic(AnalyticShape::Disk(disk), transform).map_err(here);
+            return analytic(AnalyticShape::Disk(disk), transform).map_err(there);
         }
         ShapeDescription::Lens { radii, thickness, diameter } => {
             let lens = Lens::new(*radii, *thickness, *diameter).map_err(here)?;
-            return analytic(AnalyticShape::Lens(lens), transform).map_err(here);
+            return analytic(AnalyticShape::Lens(lens), transform).map_err(there);
         }
         ShapeDescription::Implicit(surface) => {
             let surface = implicit_surface(surface).map_err(here)?;
-            return analytic(AnalyticShape::Implicit(surface), transform).map_err(here);
+            return analytic(AnalyticShape::Implicit(surface), transform).map_err(there);
         }
         ShapeDescription::Quad { origin, u, v } => {
             let [o, u, v] = [*origin, *u, *v].map(DVec3::from);
@@ -149,7 +153,7 @@ fn transform(steps: &[TransformStep]) -> Result<DAffine3> {
     Err(Error::new(ErrorKind::Degenerate, message))
 }
 
-/// Rotation about an axis through the origin, right-handed [Rodrigues1840]. Multiples of 90° are exact.
+/// Rotation about an axis through the origin, right-handed \[Rodrigues1840\]. Multiples of 90° are exact.
 fn rotation(axis: DVec3, degrees: f64) -> DMat3 {
     let turn = degrees.rem_euclid(360.0);
     let (sin, cos) = match turn {

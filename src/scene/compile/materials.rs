@@ -25,8 +25,9 @@ impl Materials {
     ) -> Result<Self> {
         let mut media = Vec::new();
         let mut materials = Vec::new();
-        for (_, description) in &description.materials {
-            let material = match &description.kind {
+        for (_, material) in &description.materials {
+            let two_sided = material.two_sided;
+            let material = match &material.kind {
                 MaterialKind::Diffuse { reflectance } => {
                     let function = spectra.resolve(reflectance, Role::Reflectance)?;
                     Material::Diffuse { reflectance: spectra.add(&function, 1.0) }
@@ -35,10 +36,11 @@ impl Materials {
                     let function = spectra.resolve(reflectance, Role::Reflectance)?;
                     Material::Mirror { reflectance: spectra.add(&function, 1.0) }
                 }
-                MaterialKind::Conductor(metal) => conductor(metal, &description.at, spectra)?,
+                MaterialKind::Conductor(metal) => conductor(metal, &material.at, spectra)?,
                 MaterialKind::Dielectric { ior, absorption_per_m, priority } => {
                     let (ior, warning) = index_of_refraction(ior)?;
-                    warnings.extend(warning.map(|w| format!("{}.ior: {w}", description.at)));
+                    let file = description.file.display();
+                    warnings.extend(warning.map(|w| format!("{file}: {}.ior: {w}", material.at)));
                     let absorption = match absorption_per_m {
                         None => None,
                         Some(spectrum) => {
@@ -51,7 +53,7 @@ impl Materials {
                     Material::Dielectric { medium: MediumId(media.len() as u32 - 1) }
                 }
             };
-            materials.push((material, description.two_sided));
+            materials.push((material, two_sided));
         }
         Ok(Self { materials, media })
     }

@@ -123,10 +123,5 @@ impl<'a> Spectra<'a> {
 
 /// An error in a file that the scene names: told from where the scene names it.
 pub fn in_referenced_file(error: Error, path: &Path, at: String) -> Error {
-    let kind = error.kind;
-    let message = match kind {
-        ErrorKind::FileNotFound => format!("cannot open \"{}\": {}", path.display(), error.message),
-        _ => error.in_file(path).to_string(),
-    };
-    Error::new(kind, message).at(at)
+    Error::new(error.kind, error.in_file(path).to_string()).at(at)
 }
