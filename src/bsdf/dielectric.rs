@@ -59,7 +59,7 @@ impl Dielectric {
     /// Reflects or refracts a path that travels along the unit `direction` and meets the surface whose unit `normal`
     /// faces it. The choice, by `u` in [0, 1), is shared by all lanes; `hero` gives the direction where lanes part.
     ///
-    /// With shared lanes a reflection is drawn with q = Σ βₖFₖ / Σ βₖ (`throughput` β), which is the balance heuristic [Wilkie2014]
+    /// With shared lanes a reflection is drawn with q = Σ βₖFₖ / Σ βₖ (`throughput` β), which is the balance heuristic \[Wilkie2014\]
     /// over the heroes that could have been, so that all lanes keep their own Fₖ / q. A dispersive refraction leaves the
     /// hero alone, which then stands for all eight: the caller multiplies by [`LANES`] when it parts them.
     pub fn sample<const DISPERSION: bool>(
