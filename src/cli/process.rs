@@ -36,6 +36,13 @@ pub fn peak_memory_bytes() -> Option<u64> {
     line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kilobytes| kilobytes * 1024)
 }
 
+/// Memory that could still be had, bytes; `None` where the system does not tell.
+pub fn available_memory_bytes() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find(|line| line.starts_with("MemAvailable:"))?;
+    line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kilobytes| kilobytes * 1024)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -45,6 +52,7 @@ mod tests {
     fn linux_tells() {
         assert!(cpu_seconds().is_some_and(|s| (0.0..1e6).contains(&s)));
         assert!(peak_memory_bytes().is_some_and(|b| b > 1 << 20));
+        assert!(available_memory_bytes().is_some_and(|b| b > 1 << 20));
         assert_eq!(missing_processor_feature(), None);
     }
 }

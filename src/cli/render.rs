@@ -78,6 +78,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let outputs = outputs(args)?;
     let (mut description, mut warnings) = read(&args.scene)?;
     override_settings(&mut description, args)?;
+    check_memory(&description)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, usize::from))
         .build()
@@ -210,6 +211,24 @@ fn override_settings(description: &mut SceneDescription, args: &RenderArgs) -> R
         (description.film.width, description.film.height) = (width, height);
     }
     Ok(())
+}
+
+/// Refuses a film that does not fit into memory before any work is done.
+fn check_memory(description: &SceneDescription) -> Result<()> {
+    let (width, height) = (description.film.width, description.film.height);
+    let needed = u64::from(width) * u64::from(height) * Film::BYTES_PER_PIXEL as u64;
+    match process::available_memory_bytes() {
+        Some(available) if needed > available => {
+            let gigabytes = |bytes: u64| bytes as f64 / f64::from(1 << 30);
+            let message = format!(
+                "a picture of {width}x{height} pixels needs {:.1} GiB, and {:.1} GiB are free; expected a smaller one",
+                gigabytes(needed),
+                gigabytes(available)
+            );
+            Err(Error::new(ErrorKind::LimitExceeded, message).at("film").in_file(&description.file))
+        }
+        _ => Ok(()),
+    }
 }
 
 const INTEGRATORS: [(&str, Integrator); 5] = [

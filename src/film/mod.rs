@@ -61,6 +61,9 @@ impl Film {
         }
     }
 
+    /// Memory of a film with light paths, and of the XYZ picture made from it, bytes a pixel.
+    pub const BYTES_PER_PIXEL: usize = size_of::<PixelSums>() + (LIGHT_REPLICATES + 2) * size_of::<Xyz>();
+
     /// Pixels per row.
     pub fn width(&self) -> u32 {
         self.width
