@@ -121,3 +121,51 @@ pub fn hat(index: usize, count: usize) -> (Vec<f64>, Vec<f64>) {
     let values = (0..count).map(|i| if i == index { 1.0 } else { 0.0 }).collect();
     (knots, values)
 }
+
+/// A box between two corners, as the JSON of a closed mesh with its front outside.
+pub fn box_shape(min: [f64; 3], max: [f64; 3]) -> Value {
+    let corner = |i: usize| (0..3).map(move |axis| if i >> axis & 1 == 0 { min[axis] } else { max[axis] });
+    let positions: Vec<f64> = (0..8).flat_map(corner).collect();
+    let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let indices: Vec<usize> = quads.iter().flat_map(|[a, b, c, d]| [*a, *b, *c, *a, *c, *d]).collect();
+    serde_json::json!({ "type": "triangles", "positions": positions, "indices": indices })
+}
+
+/// Reflectance of unpolarised light at a smooth boundary, by Fresnel's amplitudes as the textbooks give them; 1 beyond the
+/// critical angle. `sin` is that of the angle in a medium of index 1.
+pub fn fresnel(sin: f64, from: f64, to: f64) -> f64 {
+    if sin >= to {
+        return 1.0;
+    }
+    let cos = |n: f64| (1.0 - sin * sin / (n * n)).sqrt();
+    let (ci, ct) = (cos(from), cos(to));
+    let s = (from * ci - to * ct) / (from * ci + to * ct);
+    let p = (to * ci - from * ct) / (to * ci + from * ct);
+    0.5 * (s * s + p * p)
+}
+
+/// A plane-parallel layer.
+#[derive(Debug, Clone, Copy)]
+pub struct Layer {
+    pub index: f64,
+    pub thickness: f64,
+    pub absorption: f64,
+}
+
+/// Transmittance and reflectance of layers in air, all reflections between them added up without interference: for one
+/// slab T = (1 − R)² τ / (1 − R² τ²), for more by adding a boundary at a time.
+pub fn stack(layers: &[Layer], sin: f64) -> (f64, f64) {
+    let first = fresnel(sin, 1.0, layers[0].index);
+    let (mut t, mut front, mut back) = (1.0 - first, first, first);
+    for (i, layer) in layers.iter().enumerate() {
+        let next = layers.get(i + 1).map_or(1.0, |l| l.index);
+        let cos = (1.0 - sin * sin / (layer.index * layer.index)).sqrt();
+        let tau = math::exp(-layer.absorption * layer.thickness / cos);
+        let r = fresnel(sin, layer.index, next);
+        let echoes = 1.0 / (1.0 - back * tau * tau * r);
+        front += t * t * tau * tau * r * echoes;
+        back = r + (1.0 - r) * (1.0 - r) * tau * tau * back * echoes;
+        t *= tau * (1.0 - r) * echoes;
+    }
+    (t, front)
+}
