@@ -38,7 +38,7 @@ fn every_bin_is_one(name: &str, scene: &Value, samples: u64) {
 #[test]
 fn dispersive_sphere() {
     let sphere = json!({ "type": "sphere", "center": [0, 0, 0], "radius": 1 });
-    every_bin_is_one("sphere of N-SF66", &furnace(sphere, "N-SF66", [0.3, 2.0, 0.4], 30.0), 128);
+    every_bin_is_one("sphere of N-SF66", &furnace(sphere, "N-SF66", [0.3, 2.0, 0.4], 30.0), 64);
 }
 
 fn gem() -> Value {
@@ -47,19 +47,19 @@ fn gem() -> Value {
 
 #[test]
 fn brilliant() {
-    every_bin_is_one("brilliant", &gem(), 128);
+    every_bin_is_one("brilliant", &gem(), 64);
 }
 
 /// Light stays long in a gem; what is cut off at 64 events is seen.
 #[test]
 fn long_paths_in_a_gem() {
     let of = |depth: u64| Estimate::over_seeds(&with(&gem(), "/render/max_depth", depth), 8, mean_y);
-    let whole = of(4096);
-    whole.check("gem, 4096 events", 1.0, 2e-3, 4.0);
-    for depth in [8, 16, 32, 64, 128, 256, 512] {
-        println!("share beyond {depth} events: {:.6}", whole.mean - of(depth).mean);
-    }
-    assert!(whole.mean - of(8).mean > 0.01);
+    let whole = of(1024);
+    whole.check("gem, 1024 events", 1.0, 2e-3, 4.0);
+    // The random numbers are the same, so that the differences are sharp.
+    let beyond = [64, 512].map(|depth| whole.mean - of(depth).mean);
+    println!("share beyond 64 and 512 events: {beyond:.6?}");
+    assert!(beyond[0] > 1e-3 && beyond[0] < 5e-3 && beyond[1].abs() < 1e-5, "{beyond:?}");
 }
 
 /// Inside glass radiance is n² times that outside: from within a ball, from the liquid around a ball, from a ball in
@@ -114,13 +114,13 @@ fn diffuse() {
             let mut room = with(&with(&ball, "/render/integrator", integrator), "/render/max_depth", 400);
             room = with(&room, "/camera/from", json!([0.3, 0.2, 0.1]));
             room = with(&room, "/camera/fov_degrees", 70);
-            room = with(&room, "/render/samples_per_pixel", 1024);
+            room = with(&room, "/render/samples_per_pixel", 512);
             room["materials"]["grey"]["reflectance"] = json!(reflectance);
             room["objects"][0]["emission"] = json!(1);
             room["objects"][0]["emission_two_sided"] = json!(true);
             room.as_object_mut().unwrap().remove("environment");
             let seen = Estimate::over_seeds(&room, 6, mean_y);
-            seen.check(&format!("room of {reflectance}, {integrator}"), 1.0 / (1.0 - reflectance), 4e-3, 4.0);
+            seen.check(&format!("room of {reflectance}, {integrator}"), 1.0 / (1.0 - reflectance), 5e-3, 4.0);
         }
     }
 }

@@ -82,17 +82,14 @@ fn angle(a: DVec3, b: DVec3) -> f64 {
 
 #[test]
 fn deviation_of_every_line() {
-    for glass in ["SF11", "N-BK7"] {
-        for degrees in [45.0, 49.3, 55.0, 63.0, 72.0f64] {
+    for (glass, angles) in [("SF11", [60.0, 62.0, 63.2, 68.0, 76.0f64]), ("N-BK7", [38.0, 45.0, 49.3, 57.0, 72.0])] {
+        for degrees in angles {
             let i = degrees.to_radians();
             let compiled = compile_json(&scene(glass, i));
             let mut last = 0.0;
             for lambda in LINES {
                 let n = index(glass).eval(lambda);
                 let exact = deviation(n, i);
-                if exact.is_nan() {
-                    continue;
-                }
                 let out = refracted(&compiled, lambda);
                 let seen = angle(incident(i), out);
                 assert!((seen - exact).abs() < 1e-5, "{glass} {degrees}° {lambda} nm: {seen} rad, exact {exact}");
@@ -100,7 +97,6 @@ fn deviation_of_every_line() {
                 assert!(seen > last + 1e-3, "{glass}: shorter waves deviate more");
                 last = seen;
             }
-            assert!(last > 0.0, "{glass} {degrees}°: nothing gets through");
         }
     }
 }
@@ -128,7 +124,8 @@ fn minimum_deviation() {
 fn landing(n: f64, start: DVec3, i: f64, screen: DVec3, axis: DVec3) -> DVec3 {
     let half = 0.5 * APEX.to_radians();
     let apex = DVec3::new(2.0 / 3.0 * 0.1 * math::cos(half), 0.0, 0.0);
-    let normals = [DVec3::new(math::sin(half), 0.0, math::cos(half)), DVec3::new(math::sin(half), 0.0, -math::cos(half))];
+    let normals =
+        [DVec3::new(math::sin(half), 0.0, math::cos(half)), DVec3::new(math::sin(half), 0.0, -math::cos(half))];
     let meet = |o: DVec3, d: DVec3, p: DVec3, n: DVec3| o + d * ((p - o).dot(n) / d.dot(n));
     let bend = |d: DVec3, n: DVec3, ratio: f64| {
         // The part along the face is scaled by the ratio of indices, the rest follows from the length.
@@ -175,16 +172,21 @@ fn lines_on_a_screen() {
             "radius": 0.0005, "power": { "line_nm": lambda, "fwhm_nm": 0.1 } }]);
         for integrator in ["light", "auto"] {
             let (film, _) = render_json(&with(&scene, "/render/integrator", integrator));
-            let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
-            for (pixel, xyz) in film.to_xyz().iter().enumerate() {
-                sum += xyz[1];
-                x += xyz[1] * ((pixel % width) as f64 + 0.5);
-                y += xyz[1] * ((pixel / width) as f64 + 0.5);
-            }
-            assert!(sum > 0.0, "{lambda} nm does not reach the screen");
             let to = landing(index(glass).eval(lambda), start, i, center, out) - camera;
             let pixels = 0.5 * width as f64 / math::tan(half) / to.dot(out);
             let expected = [0.5 * width as f64 + to.dot(right) * pixels, 0.5 * width as f64 - to.y * pixels];
+            // The centre of the spot, without the glow of light that the screen sends back to the prism.
+            let (mut sum, mut x, mut y, mut all) = (0.0, 0.0, 0.0, 0.0);
+            for (pixel, xyz) in film.to_xyz().iter().enumerate() {
+                let at = [pixel % width, pixel / width].map(|p| p as f64 + 0.5);
+                all += xyz[1];
+                if (at[0] - expected[0]).abs() < 8.0 && (at[1] - expected[1]).abs() < 8.0 {
+                    sum += xyz[1];
+                    x += xyz[1] * at[0];
+                    y += xyz[1] * at[1];
+                }
+            }
+            assert!(sum > 0.9 * all && sum > 0.0, "{lambda} nm: {sum} of {all} is where it should be");
             let (dx, dy) = (x / sum - expected[0], y / sum - expected[1]);
             println!("{lambda} nm, {integrator}: off by {dx:.3}, {dy:.3} pixels from {expected:?}");
             assert!(dx.abs() < 1.0 && dy.abs() < 1.0, "{lambda} nm, {integrator}: off by {dx}, {dy} pixels");

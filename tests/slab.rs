@@ -24,7 +24,7 @@ fn scene(degrees: f64, behind: bool) -> Value {
     json!({
         "camera": { "type": "perspective", "from": [-sin, cos, 0], "to": [0, 0, 0], "up": [0, 0, 1], "fov_degrees": 0.01 },
         "film": { "width": 32, "height": 32 },
-        "render": { "samples_per_pixel": 128, "max_depth": 200, "seed": 0, "integrator": "path" },
+        "render": { "samples_per_pixel": 64, "max_depth": 200, "seed": 0, "integrator": "path" },
         "materials": { "glass": { "type": "dielectric", "ior": { "glass": "N-BK7" },
             "absorption_per_m": { "wavelengths_nm": ABSORPTION_NM, "values": ABSORPTION } } },
         "objects": [

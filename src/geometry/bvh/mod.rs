@@ -188,7 +188,8 @@ impl Bvh {
                     while hits != 0 {
                         let lane = hits.trailing_zeros() as usize % PACKET;
                         hits &= hits - 1;
-                        let distance = if t[lane] > doubt[lane] { Some(t[lane]) } else { packet.exact_distance(lane, ray) };
+                        let distance =
+                            if t[lane] > doubt[lane] { Some(t[lane]) } else { packet.exact_distance(lane, ray) };
                         if let Some(distance) = distance {
                             nearest.offer(distance, packet.triangles[lane]);
                         }
