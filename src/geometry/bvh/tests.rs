@@ -477,7 +477,9 @@ fn the_first_of_equally_near_primitives_wins() {
 
 #[test]
 fn a_ray_that_leaves_a_surface_does_not_meet_it_again() {
-    for (soup, reach) in [(Soup::sphere(4), 1.0), (Soup::grid_box(1, Vec3::ONE), 1.0)] {
+    // The slabs are wide and thin: seen obliquely, their vertices are far away along the ray and the plane is not.
+    let (slab, sheet) = (Soup::grid_box(1, Vec3::new(1.0, 1e-2, 1.0)), Soup::grid_box(1, Vec3::new(1.0, 1.0, 1e-4)));
+    for (soup, reach) in [(Soup::sphere(4), 1.0), (Soup::grid_box(1, Vec3::ONE), 1.0), (slab, 1e-3), (sheet, 1e-5)] {
         let shift = Vec3::new(0.3, 0.1, -0.2);
         let soup = soup.moved(|p| p * 0.4 + shift);
         let bvh = soup.bvh();
