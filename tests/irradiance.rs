@@ -49,7 +49,7 @@ fn check(what: &str, light: Value, irradiance: impl Fn(DVec3) -> f64) {
         let samples = if integrator == "path" { 512 } else { 2048 };
         let scene = with(&with(&scene(&light), "/render/integrator", integrator), "/render/samples_per_pixel", samples);
         let tolerance = if integrator == "path" { 1e-3 } else { 8e-3 };
-        Estimate::over_seeds(&scene, 6, mean_y).check(&format!("{what}, {integrator}"), exact, tolerance, 4.0);
+        Estimate::over_seeds(&scene, 6, mean_y).check(&format!("{what}, {integrator}"), exact, tolerance);
     }
 }
 

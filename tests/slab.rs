@@ -72,7 +72,7 @@ fn transmittance_and_reflectance() {
             for (behind, exact, tolerance) in [(true, through, 3e-3), (false, back, 1e-2)] {
                 let scene = with(&scene(degrees, behind), "/objects/1/emission", emission.clone());
                 let what = format!("{degrees}°, bin {bin}, {}", if behind { "transmittance" } else { "reflectance" });
-                Estimate::over_seeds(&scene, 8, mean_xyz_sum).check(&what, exact, tolerance, 4.0);
+                Estimate::over_seeds(&scene, 8, mean_xyz_sum).check(&what, exact, tolerance);
             }
         }
     }
@@ -95,5 +95,5 @@ fn total_internal_reflection() {
     });
     let (r, tau) = (fresnel(0.0, 1.0, n), math::exp(-absorption * side * 2f64.sqrt()));
     let exact = r + (1.0 - r) * (1.0 - r) * tau / (1.0 - r * tau);
-    Estimate::over_seeds(&scene, 8, mean_y).check("right-angled prism", exact, 3e-3, 4.0);
+    Estimate::over_seeds(&scene, 8, mean_y).check("right-angled prism", exact, 3e-3);
 }

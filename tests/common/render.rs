@@ -47,6 +47,9 @@ pub fn mean_y(film: &Film) -> f64 {
     image.iter().map(|xyz| xyz[1]).sum::<f64>() / image.len() as f64
 }
 
+/// Probability that chance alone fails one comparison with an exact value.
+const LEVEL: f64 = 1e-4;
+
 /// A number known up to a statistical error.
 #[derive(Debug, Clone, Copy)]
 pub struct Estimate {
@@ -71,14 +74,15 @@ impl Estimate {
         Self::of(&(0..seeds).map(of_seed).collect::<Vec<_>>())
     }
 
-    /// Insists on an exact value: the statistical error is below `relative` / 3, and the mean is off by no more than
-    /// `sigmas` of it, or by no more than rounding, 2e-6 relative.
-    pub fn check(&self, what: &str, exact: f64, relative: f64, sigmas: f64) {
+    /// Insists on an exact value: the statistical error is below `relative` / 3, and the mean is off by less than
+    /// `relative`, and by no more than rounding (2e-6) and Student's t at the level [`LEVEL`] explain.
+    pub fn check(&self, what: &str, exact: f64, relative: f64) {
         let (off, scale) = ((self.mean - exact).abs(), exact.abs().max(1e-30));
         println!("{what}: {:.7} ± {:.7}, exact {exact:.7}, off by {:.1e}", self.mean, self.error, off / scale);
         assert!(self.error <= relative / 3.0 * scale, "{what}: too noisy: {self:?}, exact {exact}");
         assert!(off <= relative * scale, "{what}: {self:?}, exact {exact}");
-        assert!(off <= sigmas * self.error + 2e-6 * scale, "{what}: {self:?}, exact {exact}");
+        let t = (off - 2e-6 * scale).max(0.0) / self.error.max(f64::MIN_POSITIVE);
+        assert!(student_two_sided(t, self.count as f64 - 1.0) > LEVEL, "{what}: {self:?}, exact {exact}, {t} σ");
     }
 
     /// Two-sided probability of a difference at least as large by chance [Welch1947].
