@@ -59,7 +59,6 @@ fn overlap_is_decided_by_priority() {
 
 /// The same with faces that coincide exactly.
 #[test]
-#[ignore = "of two faces in one plane only the one met first is crossed"]
 fn coincident_faces() {
     for (glass, liquid) in [(1, 0), (0, 1), (0, 0)] {
         for degrees in [0.0, 55.0] {
@@ -91,7 +90,6 @@ fn equal_indices_reflect_nothing() {
 
 /// Touching, with no gap at all.
 #[test]
-#[ignore = "of two faces in one plane only the one met first is crossed"]
 fn equal_indices_in_contact() {
     let materials = json!({ "glass": dielectric(1.5, 0, 0.0), "other": dielectric(1.5, 1, 0.0) });
     let film = |objects| render_json(&column(materials.clone(), objects, 40.0)).0;

@@ -146,6 +146,19 @@ impl Analytic {
         }
     }
 
+    /// Whether a part of the surface may lie on the other's: balls and lenses can share a cap, other shapes can only be
+    /// the same.
+    pub fn may_share_a_face(&self, other: &Self) -> bool {
+        let spherical = |placed: &Placed| match placed {
+            Placed::Ball(_) => true,
+            Placed::Transformed(shape) => matches!(shape.local, Local::Lens(_) | Local::UnitSphere),
+        };
+        match (&self.placed, &other.placed) {
+            (Placed::Ball(a), Placed::Ball(b)) => a == b,
+            (a, b) => (spherical(a) && spherical(b)) || a == b,
+        }
+    }
+
     /// The nearest hit with 0 < t < `t_max`. There is no smallest t: a ray that starts off the surface by as little as
     /// [`offset_origin`] moves it meets only what lies ahead.
     #[inline]

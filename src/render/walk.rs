@@ -71,20 +71,21 @@ impl Walk<'_> {
 
     /// Reflection, refraction or passage at the boundary of a transparent object.
     pub fn meet_dielectric<const DISPERSION: bool>(&mut self, surface: &Surface, medium: MediumId, u: f32) -> Crossing {
-        let workspace = &mut *self.workspace;
-        let outward = self.ray.direction.as_dvec3().dot(surface.geometric);
-        let entering = outward < 0.0;
-        let from = workspace.interiors.medium(self.scene);
-        let to = workspace.interiors.medium_beyond(self.scene, surface.object, medium, entering);
-        let boundary = Dielectric {
-            from: workspace.spectra.indices(self.scene, from),
-            to: workspace.spectra.indices(self.scene, to),
+        let Workspace { spectra, interiors, beyond, counters, .. } = &mut *self.workspace;
+        let known = beyond.set_past(interiors, self.scene, surface, medium, self.ray.direction);
+        let (from, to) = (interiors.medium(self.scene), beyond.medium(self.scene));
+        let boundary =
+            Dielectric { from: spectra.indices(self.scene, from), to: spectra.indices(self.scene, to) };
+        let mut cross = || {
+            counters.medium_underflows += u64::from(!known);
+            std::mem::swap(interiors, beyond);
         };
         if from == to || boundary.is_invisible() {
-            self.cross(surface, medium, entering);
+            cross();
             self.ray = surface.spawn(self.ray.direction);
             return Crossing::Passed;
         }
+        let entering = surface.geometric.dot(self.ray.direction.as_dvec3()) < 0.0;
         let normal = if entering { surface.geometric } else { -surface.geometric };
         let sample =
             boundary.sample::<DISPERSION>(self.ray.direction, normal, self.lanes, self.hero, self.throughput, u);
@@ -94,17 +95,11 @@ impl Walk<'_> {
             self.throughput = self.throughput.only(self.hero) * LANES as f32;
         }
         if sample.refracted {
-            self.cross(surface, medium, entering);
+            cross();
         }
         self.depth += 1;
         self.ray = surface.spawn(sample.direction);
         if self.throughput.is_zero() { Crossing::Ended } else { Crossing::Scattered }
-    }
-
-    fn cross(&mut self, surface: &Surface, medium: MediumId, entering: bool) {
-        if !self.workspace.interiors.cross(surface.object, medium, entering) {
-            self.workspace.counters.medium_underflows += 1;
-        }
     }
 
     /// The scattering model of an opaque surface, with its normals turned to the path; `None` if nothing is reflected.
@@ -165,7 +160,7 @@ impl Walk<'_> {
     }
 
     fn visibility_through_media(&mut self, mut ray: Ray, limit: f32, target: Option<Vec3>) -> Option<SampledSpectrum> {
-        let Workspace { spectra, interiors, shadow_interiors, counters } = &mut *self.workspace;
+        let Workspace { spectra, interiors, shadow_interiors, beyond, counters } = &mut *self.workspace;
         shadow_interiors.copy_from(interiors);
         let mut transmittance = SampledSpectrum::ONE;
         loop {
@@ -180,12 +175,12 @@ impl Walk<'_> {
             let Some(surface) = hit else { return Some(transmittance) };
             let object = &self.scene.objects[surface.object as usize];
             let Material::Dielectric { medium: inside } = object.material else { return None };
-            let entering = surface.geometric.dot(ray.direction.as_dvec3()) < 0.0;
-            let beyond = shadow_interiors.medium_beyond(self.scene, surface.object, inside, entering);
-            if medium != beyond && spectra.indices(self.scene, medium).eta != spectra.indices(self.scene, beyond).eta {
+            beyond.set_past(shadow_interiors, self.scene, &surface, inside, ray.direction);
+            let past = beyond.medium(self.scene);
+            if medium != past && spectra.indices(self.scene, medium).eta != spectra.indices(self.scene, past).eta {
                 return None;
             }
-            shadow_interiors.cross(surface.object, inside, entering);
+            std::mem::swap(shadow_interiors, beyond);
             ray = surface.spawn(ray.direction);
             if let Some(target) = target {
                 ray.direction = target - ray.origin;

@@ -2,8 +2,9 @@
 //! transparent objects that it is inside of.
 
 use crate::bsdf::Indices;
-use crate::scene::{MediumId, Scene, SpectrumId};
+use crate::scene::{MediumId, Scene, SpectrumId, Surface};
 use crate::spectrum::{SampledSpectrum, Wavelengths};
+use glam::Vec3;
 
 /// One thread's memory and counters.
 #[derive(Debug)]
@@ -14,6 +15,8 @@ pub struct Workspace {
     pub interiors: Interiors,
     /// The same for a shadow ray.
     pub shadow_interiors: Interiors,
+    /// The same past the surface at hand.
+    pub beyond: Interiors,
     /// What has been counted.
     pub counters: Counters,
 }
@@ -42,6 +45,7 @@ impl Workspace {
             spectra: SpectralCache::new(scene),
             interiors: Interiors::default(),
             shadow_interiors: Interiors::default(),
+            beyond: Interiors::default(),
             counters: Counters::default(),
         }
     }
@@ -129,28 +133,20 @@ impl Interiors {
         top(scene, self.entries.iter().copied())
     }
 
-    /// What will be there after entering or leaving an object.
-    pub fn medium_beyond(&self, scene: &Scene, object: u32, medium: MediumId, entering: bool) -> Option<MediumId> {
-        if entering {
-            return top(scene, self.entries.iter().copied().chain([(object, medium)]));
-        }
-        let last = self.entries.iter().rposition(|(o, _)| *o == object);
-        top(scene, self.entries.iter().copied().enumerate().filter(|(i, _)| Some(*i) != last).map(|(_, e)| e))
-    }
-
-    /// Enters or leaves an object; `false` when leaving one that was never entered, which changes nothing.
-    pub fn cross(&mut self, object: u32, medium: MediumId, entering: bool) -> bool {
-        if entering {
-            self.entries.push((object, medium));
+    /// Becomes what holds the points just past a surface of a transparent object, for a path that comes from where
+    /// `before` holds; `false` when leaving an object that was never entered, which changes nothing.
+    pub fn set_past(&mut self, before: &Self, scene: &Scene, surface: &Surface, medium: MediumId, direction: Vec3) -> bool {
+        if scene.objects[surface.object as usize].coincident {
+            self.reset(&scene.interiors_at(surface.spawn(direction).origin));
             return true;
         }
-        match self.entries.iter().rposition(|(o, _)| *o == object) {
-            Some(index) => {
-                self.entries.remove(index);
-                true
-            }
-            None => false,
+        self.copy_from(before);
+        if surface.geometric.dot(direction.as_dvec3()) < 0.0 {
+            self.entries.push((surface.object, medium));
+            return true;
         }
+        let entered = self.entries.iter().rposition(|(object, _)| *object == surface.object);
+        entered.map(|index| self.entries.remove(index)).is_some()
     }
 }
 

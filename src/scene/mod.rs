@@ -7,12 +7,14 @@ pub mod description;
 mod features;
 mod light;
 mod material;
+mod solid;
 
 pub use camera::{Camera, Connection};
 pub use compile::{Compiled, FilmSettings, Integrator, RenderSettings, compile};
 pub use features::SceneFeatures;
 pub use light::{Aim, AreaShape, Emission, EmissionStart, Exit, Light, LightKind, LightSample};
 pub use material::{Material, Medium, MediumId, SpectrumId};
+pub use solid::Solid;
 
 use crate::geometry::{Aabb, Analytic, AnalyticHit, Bvh, Primitive, Ray, TriangleHit, geometric_normal, offset_origin};
 use crate::sampling::AliasTable;
@@ -33,6 +35,8 @@ pub struct Scene {
     pub(crate) analytic_objects: Vec<u32>,
     /// Objects, in the file's order.
     pub objects: Vec<Object>,
+    /// Transparent objects, the largest first.
+    pub solids: Vec<Solid>,
     /// Spectra, by [`SpectrumId`].
     pub spectra: Vec<SpectrumTable>,
     /// Transparent media, by [`MediumId`].
@@ -76,6 +80,8 @@ pub struct Object {
     pub light: Option<u32>,
     /// Box around it.
     pub bounds: Aabb,
+    /// Whether it may have a face in common with another transparent object; see [`Scene::interiors_at`].
+    pub coincident: bool,
 }
 
 /// A hit on a surface.
@@ -156,34 +162,5 @@ impl Scene {
     /// A sphere around everything.
     pub fn everything(&self) -> Aim {
         Aim { center: Vec3::ZERO, radius: self.radius }
-    }
-
-    /// The transparent objects that hold a point, outermost first. Counts how often a ray to infinity crosses each.
-    pub fn interiors_at(&self, point: Vec3) -> Vec<(u32, MediumId)> {
-        // An arbitrary direction that no model is likely to be aligned with.
-        let mut ray = Ray { origin: point, direction: Vec3::new(0.281_103, 0.873_241, 0.398_014).normalize() };
-        let mut crossings: Vec<(u32, MediumId, i32)> = Vec::new();
-        while let Some(surface) = self.closest(&ray, f32::INFINITY) {
-            if let Material::Dielectric { medium } = self.objects[surface.object as usize].material {
-                let leaving = if surface.geometric.dot(ray.direction.as_dvec3()) > 0.0 { 1 } else { -1 };
-                match crossings.iter_mut().find(|(object, ..)| *object == surface.object) {
-                    Some((.., balance)) => *balance += leaving,
-                    None => crossings.push((surface.object, medium, leaving)),
-                }
-            }
-            ray = surface.spawn(ray.direction);
-        }
-        // What is left last was entered first.
-        crossings
-            .iter()
-            .rev()
-            .filter(|(.., balance)| *balance > 0)
-            .map(|&(object, medium, _)| (object, medium))
-            .collect()
-    }
-
-    /// Whether a box meets the box of a transparent object, so that points in it have to ask [`Self::interiors_at`].
-    pub fn may_be_inside(&self, bounds: &Aabb) -> bool {
-        self.objects.iter().any(|o| matches!(o.material, Material::Dielectric { .. }) && o.bounds.overlaps(bounds))
     }
 }

@@ -13,7 +13,8 @@ use crate::scene::description::{
     BrilliantDescription, ImplicitDescription, MaterialKind, ObjectDescription, SceneDescription, ShapeDescription,
     TransformStep,
 };
-use crate::scene::{Material, Object};
+use crate::scene::solid::SolidShape;
+use crate::scene::{Material, Object, Solid};
 use crate::{Error, ErrorKind, Result};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use std::ops::Range;
@@ -253,7 +254,7 @@ impl Geometry {
                 }
             };
             let (material, two_sided) = object.material.map_or((Material::Black, false), |m| materials.materials[m]);
-            geometry.objects.push(Object { material, two_sided, light: None, bounds });
+            geometry.objects.push(Object { material, two_sided, light: None, bounds, coincident: false });
             geometry.sources.push(source);
         }
         if geometry.normals.iter().all(|n| *n == Vec3::ZERO) {
@@ -271,6 +272,24 @@ impl Geometry {
         self.normals.extend((0..mesh.positions.len()).map(normal));
         let bounds = Aabb::from_points(self.positions[first_vertex as usize..].iter().copied());
         (bounds, Source::Triangles(first..self.triangles.len() as u32))
+    }
+
+    /// Transparent objects, the largest first.
+    pub fn solids(&self) -> Vec<Solid> {
+        let mut analytic = 0;
+        let mut solids: Vec<Solid> = Vec::new();
+        for ((object, source), index) in self.objects.iter().zip(&self.sources).zip(0..) {
+            let shape = match source {
+                Source::Triangles(range) => SolidShape::triangles(range.start as usize..range.end as usize),
+                Source::Analytic(..) => {
+                    analytic += 1;
+                    SolidShape::Analytic(analytic - 1)
+                }
+            };
+            solids.extend(Solid::of(index, &object.material, object.bounds, shape));
+        }
+        solids.sort_by(|a, b| b.bounds.half_area().total_cmp(&a.bounds.half_area()));
+        solids
     }
 
     pub fn analytic_bounds(&self) -> Vec<Aabb> {

@@ -89,7 +89,8 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
         dispersion: materials.media.iter().any(|m| m.dispersive),
         interiors: !materials.media.is_empty(),
     };
-    let scene = Scene {
+    let solids = geometry.solids();
+    let mut scene = Scene {
         bvh,
         positions: geometry.positions,
         triangles: geometry.triangles,
@@ -98,6 +99,7 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
         analytic: geometry.analytic,
         analytic_objects: geometry.analytic_objects,
         objects: geometry.objects,
+        solids,
         spectra: spectra.into_tables(),
         media: materials.media,
         light_table: lights.sampled,
@@ -114,6 +116,7 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
         meters_per_unit: normalization.meters_per_unit,
         radiance_scale: lights.radiance_scale,
     };
+    scene.mark_coincident();
     let film = &description.film;
     let filter = match film.filter {
         FilterKind::Box => Filter::boxed(film.filter_radius),

@@ -1,0 +1,148 @@
+//! Transparent volumes: which of them hold a point.
+
+use super::{Material, MediumId, Scene};
+use crate::geometry::{Aabb, Bvh, Primitive, Ray, TriangleHit, geometric_normal, offset_origin};
+use glam::Vec3;
+use std::collections::HashSet;
+use std::ops::Range;
+use std::sync::OnceLock;
+
+/// A transparent object as a set of points.
+#[derive(Debug)]
+pub struct Solid {
+    /// Index of the object.
+    pub object: u32,
+    /// What is inside.
+    pub medium: MediumId,
+    /// Box around it.
+    pub bounds: Aabb,
+    pub(super) shape: SolidShape,
+}
+
+/// How to tell whether a point is inside.
+#[derive(Debug)]
+pub(super) enum SolidShape {
+    /// By the faces that a ray to infinity crosses. The tree over these triangles alone is built when first needed.
+    Triangles(Range<usize>, OnceLock<Bvh>),
+    /// By the shape's own equation.
+    Analytic(usize),
+}
+
+impl SolidShape {
+    /// Of the triangles with these indices.
+    pub fn triangles(range: Range<usize>) -> Self {
+        Self::Triangles(range, OnceLock::new())
+    }
+}
+
+impl Solid {
+    /// Whether a point is inside. Faces of other objects, coincident ones too, play no part.
+    pub fn contains(&self, scene: &Scene, point: Vec3) -> bool {
+        if !(point.cmpge(self.bounds.min).all() && point.cmple(self.bounds.max).all()) {
+            return false;
+        }
+        match &self.shape {
+            SolidShape::Analytic(index) => scene.analytic[*index].contains(point.as_dvec3()),
+            SolidShape::Triangles(range, tree) => {
+                let triangles = &scene.triangles[range.clone()];
+                let tree = tree.get_or_init(|| Bvh::build(&scene.positions, triangles, &[]));
+                crossings(tree, &scene.positions, triangles, point) > 0
+            }
+        }
+    }
+}
+
+/// How much more often a ray to infinity leaves than it enters.
+fn crossings(tree: &Bvh, positions: &[Vec3], triangles: &[[u32; 3]], point: Vec3) -> i32 {
+    // An arbitrary direction that no model is likely to be aligned with.
+    let mut ray = Ray { origin: point, direction: Vec3::new(0.281_103, 0.873_241, 0.398_014).normalize() };
+    let mut balance = 0;
+    while let Some(hit) = tree.closest(&ray, f32::INFINITY, |_, _| None) {
+        let Primitive::Triangle(index) = hit.primitive else { break };
+        let corners = triangles[index as usize].map(|i| positions[i as usize]);
+        let met = TriangleHit::new(&ray, corners).zip(geometric_normal(corners[0], corners[1], corners[2]));
+        let Some((met, normal)) = met else { break };
+        balance += if normal.dot(ray.direction.as_dvec3()) > 0.0 { 1 } else { -1 };
+        ray.origin = offset_origin(met.point, met.error, normal.as_vec3(), ray.direction);
+    }
+    balance
+}
+
+impl Scene {
+    /// The transparent objects that hold a point, larger ones first: they are taken to have been entered first.
+    pub fn interiors_at(&self, point: Vec3) -> Vec<(u32, MediumId)> {
+        self.solids.iter().filter(|s| s.contains(self, point)).map(|s| (s.object, s.medium)).collect()
+    }
+
+    /// Whether a box meets the box of a transparent object, so that points in it have to ask [`Self::interiors_at`].
+    pub fn may_be_inside(&self, bounds: &Aabb) -> bool {
+        self.solids.iter().any(|s| s.bounds.overlaps(bounds))
+    }
+
+    /// Marks the transparent objects that have faces in one plane, or may have. A ray meets only one of two such faces,
+    /// so that behind them it has to be asked where it is.
+    pub(super) fn mark_coincident(&mut self) {
+        let mut marked = Vec::new();
+        for (i, a) in self.solids.iter().enumerate() {
+            for b in &self.solids[i + 1..] {
+                if a.bounds.overlaps(&b.bounds) && self.may_coincide(a, b) {
+                    marked.extend([a.object, b.object]);
+                }
+            }
+        }
+        for object in marked {
+            self.objects[object as usize].coincident = true;
+        }
+    }
+
+    fn may_coincide(&self, a: &Solid, b: &Solid) -> bool {
+        match (&a.shape, &b.shape) {
+            (SolidShape::Triangles(a, _), SolidShape::Triangles(b, _)) => {
+                let planes = PlaneSet::new(a.clone().filter_map(|t| self.plane(t)));
+                b.clone().filter_map(|t| self.plane(t)).any(|plane| planes.contains(plane))
+            }
+            // Lenses and balls can share a cap; other surfaces only themselves.
+            (SolidShape::Analytic(a), SolidShape::Analytic(b)) => self.analytic[*a].may_share_a_face(&self.analytic[*b]),
+            _ => false,
+        }
+    }
+
+    /// Unit normal and distance from the origin of a triangle's plane, the normal turned to one fixed side.
+    fn plane(&self, triangle: usize) -> Option<[f64; 4]> {
+        let [a, b, c] = self.triangles[triangle].map(|i| self.positions[i as usize]);
+        let n = geometric_normal(a, b, c)?;
+        let leading = n.to_array().into_iter().max_by(|x, y| x.abs().total_cmp(&y.abs()))?;
+        let n = if leading < 0.0 { -n } else { n };
+        Some([n.x, n.y, n.z, n.dot(a.as_dvec3())])
+    }
+}
+
+/// Planes, found again up to a tolerance.
+struct PlaneSet(HashSet<[i64; 4]>);
+
+/// Width of a cell: planes that rounding has moved apart lie in the same or in neighbouring ones.
+const PLANE_TOLERANCE: f64 = 1.0 / (1 << 16) as f64;
+
+impl PlaneSet {
+    fn new(planes: impl Iterator<Item = [f64; 4]>) -> Self {
+        Self(planes.map(|plane| plane.map(|x| (x / PLANE_TOLERANCE).floor() as i64)).collect())
+    }
+
+    fn contains(&self, plane: [f64; 4]) -> bool {
+        // Half a cell to either side of each coordinate reaches every neighbour that is near.
+        (0..16).any(|corner| {
+            let cell = std::array::from_fn(|i| {
+                let side = if corner >> i & 1 == 1 { 0.5 } else { -0.5 };
+                (plane[i] / PLANE_TOLERANCE + side).floor() as i64
+            });
+            self.0.contains(&cell)
+        })
+    }
+}
+
+impl Solid {
+    pub(super) fn of(object: u32, material: &Material, bounds: Aabb, shape: SolidShape) -> Option<Self> {
+        let Material::Dielectric { medium } = *material else { return None };
+        Some(Self { object, medium, bounds, shape })
+    }
+}
