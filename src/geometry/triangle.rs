@@ -158,11 +158,11 @@ mod tests {
 
     #[test]
     fn normals_point_to_the_counter_clockwise_side() {
-        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X, Vec3::Y), Some(Vec3::Z));
-        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::Y, Vec3::X), Some(-Vec3::Z));
+        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X, Vec3::Y), Some(DVec3::Z));
+        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::Y, Vec3::X), Some(-DVec3::Z));
         assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X, Vec3::X * 2.0), None);
         let tiny = 1e-30;
-        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X * tiny, Vec3::Y * tiny), Some(Vec3::Z));
+        assert_eq!(geometric_normal(Vec3::ZERO, Vec3::X * tiny, Vec3::Y * tiny), Some(DVec3::Z));
         assert_eq!(triangle_area(Vec3::ZERO, Vec3::X * 2.0, Vec3::Y * 3.0), 3.0);
     }
 

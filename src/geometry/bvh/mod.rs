@@ -183,12 +183,16 @@ impl Bvh {
                 }
                 Target::Packet(index) => {
                     let packet = self.packets.get(index)?;
-                    let (t, mut hits) = packet.intersect(&lanes, nearest.t);
-                    let t = t.to_array();
+                    let (t, doubt, mut hits) = packet.intersect(&lanes, nearest.t);
+                    let (t, doubt) = (t.to_array(), doubt.to_array());
                     while hits != 0 {
                         let lane = hits.trailing_zeros() as usize % PACKET;
                         hits &= hits - 1;
-                        nearest.offer(t[lane], packet.triangles[lane]);
+                        let distance =
+                            if t[lane] > doubt[lane] { Some(t[lane]) } else { packet.exact_distance(lane, ray) };
+                        if let Some(distance) = distance {
+                            nearest.offer(distance, packet.triangles[lane]);
+                        }
                     }
                 }
                 Target::Analytic(index) => {

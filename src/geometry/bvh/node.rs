@@ -3,7 +3,7 @@
 
 use super::super::triangle::ShearedRay;
 use super::super::{Aabb, Ray};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use wide::f32x8;
 
 /// Children of a node.
@@ -155,6 +155,10 @@ impl Node {
     }
 }
 
+/// Share of the depths of a triangle's vertices below which a distance in f32 may have the wrong sign: 2⁻¹⁰, far more
+/// than its error at any but the most grazing angles, as a doubtful hit costs little and occurs once a ray at most.
+const DOUBT: f32 = 1.0 / 1024.0;
+
 /// Eight triangles. Unused lanes hold three equal vertices, which nothing hits.
 #[derive(Debug, Clone)]
 pub(super) struct Packet {
@@ -178,10 +182,13 @@ impl Packet {
         Self { vertices: vertices.map(|vertex| vertex.map(PacketLanes::new)), triangles: ids }
     }
 
-    /// Distances and the mask of the triangles that the ray meets within (0, limit]; the watertight test of
-    /// [Woop2013], see [`ShearedRay`]. Both faces count.
+    /// Distances, the distances below which these cannot be trusted, and the mask of the triangles that the ray may meet
+    /// within (0, limit]; the watertight test of [Woop2013], see [`ShearedRay`]. Both faces count.
+    ///
+    /// The distance is a sum of depths of the vertices that cancel where the ray starts near the triangle, and its
+    /// error is in proportion to them. What is nearer than [`DOUBT`] of them is for [`Self::exact_distance`] to decide.
     #[inline(always)]
-    pub fn intersect(&self, ray: &RayLanes, limit: f32) -> (PacketLanes, u32) {
+    pub fn intersect(&self, ray: &RayLanes, limit: f32) -> (PacketLanes, PacketLanes, u32) {
         let [x, y, z] = ray.axes;
         let sheared = |vertex: &[PacketLanes; 3]| {
             let depth = vertex[z] - ray.sheared_origin[2];
@@ -198,12 +205,24 @@ impl Packet {
         let back = u.simd_le(zero) & v.simd_le(zero) & w.simd_le(zero);
         let inside = front | back;
         if inside.to_bitmask() == 0 {
-            return (zero, 0);
+            return (zero, zero, 0);
         }
         let determinant = u + v + w;
         let t = (u * az + v * bz + w * cz) * ray.shear[2] / determinant;
         let flat = determinant.simd_eq(zero);
-        let ahead = t.simd_gt(zero) & t.simd_le(PacketLanes::splat(limit));
-        (t, (inside & ahead).to_bitmask() & !flat.to_bitmask())
+        let doubt = (az.abs() + bz.abs() + cz.abs()) * (ray.shear[2].abs() * DOUBT);
+        let ahead = t.simd_gt(-doubt) & t.simd_le(PacketLanes::splat(limit));
+        (t, doubt, (inside & ahead).to_bitmask() & !flat.to_bitmask())
+    }
+
+    /// Distance to the plane of one triangle, if that is ahead. A ray that leaves the triangle starts beside it by the
+    /// rounding of f32, which f64 tells apart at any angle.
+    pub fn exact_distance(&self, lane: usize, ray: &Ray) -> Option<f32> {
+        let vertex =
+            |v: usize| DVec3::from_array(self.vertices[v].each_ref().map(|axis| f64::from(axis.to_array()[lane])));
+        let a = vertex(0);
+        let normal = (vertex(1) - a).cross(vertex(2) - a);
+        let t = normal.dot(a - ray.origin.as_dvec3()) / normal.dot(ray.direction.as_dvec3());
+        (t > 0.0).then(|| (t as f32).max(f32::MIN_POSITIVE))
     }
 }
