@@ -23,6 +23,11 @@ impl Frame {
         self.shading.dot(w)
     }
 
+    /// The frame without interpolation.
+    pub fn without_shading(&self) -> Self {
+        Self { geometric: self.geometric, shading: self.geometric.as_vec3() }
+    }
+
     /// A local direction, z along the shading normal, in world coordinates.
     pub fn world_from_local(&self, local: Vec3) -> Vec3 {
         let (s, t) = orthonormal_basis(self.shading);

@@ -115,11 +115,10 @@ impl LightTracer<'_> {
                     }
                     target.splat_surface::<INTERIORS>(walk, &surface, &bsdf, &frame, [u[4], u[5]]);
                 }
-                let wo = -walk.ray.direction;
-                if bounce(walk, &surface, &bsdf, &frame, [u[0], u[1]]).is_none() {
+                walk.throughput *= adjoint(&frame, -walk.ray.direction);
+                if bounce(walk, &surface, &bsdf, &frame.without_shading(), [u[0], u[1]]).is_none() {
                     break;
                 }
-                walk.throughput *= adjoint(&frame, wo, walk.ray.direction);
             }
             if !walk.survives(u[3]) {
                 break;
@@ -128,15 +127,16 @@ impl LightTracer<'_> {
     }
 }
 
-/// Correction of light paths where shading and geometric normal differ: |wo·n_s| |wi·n_g| / (|wo·n_g| |wi·n_s|), with
-/// wo towards the light [Veach1997, 5.3].
-fn adjoint(frame: &Frame, wo: Vec3, wi: Vec3) -> f32 {
+/// Correction of light paths where shading and geometric normal differ. Camera paths see a diffuse surface as
+/// f |wi·n_s| whatever side of n_s they come from; the adjoint of that is f |wo·n_s| |wi·n_g| / |wo·n_g| with wo towards
+/// the light [Veach1997, 5.3]. So light arrives by n_s, which is this factor, and leaves by n_g.
+fn adjoint(frame: &Frame, wo: Vec3) -> f32 {
     let geometric = frame.geometric.as_vec3();
     if geometric == frame.shading {
         return 1.0;
     }
-    let factor = (wo.dot(frame.shading) * wi.dot(geometric)) / (wo.dot(geometric) * wi.dot(frame.shading));
-    if factor.is_finite() { factor.abs() } else { 0.0 }
+    let factor = wo.dot(frame.shading).max(0.0) / wo.dot(geometric).abs();
+    if factor.is_finite() { factor } else { 0.0 }
 }
 
 impl Target<'_> {
@@ -153,7 +153,7 @@ impl Target<'_> {
         let Some(seen) = scene.camera.connect(surface.point, lens, self.tracer.filter.radius()) else { return };
         let wi = (seen.lens - surface.point).normalize_or_zero();
         let wo = -walk.ray.direction;
-        let reflected = bsdf.eval(frame, wo, wi);
+        let reflected = bsdf.eval(&frame.without_shading(), wo, wi) * adjoint(frame, wo);
         if reflected.is_zero() {
             return;
         }
@@ -161,7 +161,7 @@ impl Target<'_> {
         let camera = camera_density(scene, surface, wi);
         let weight = self.density.map_or(1.0, |light| balance_heuristic(light, camera));
         let radiance = self.power * walk.throughput * reflected * transmittance;
-        self.deposit(seen.film, radiance * (adjoint(frame, wo, wi) * weight * seen.importance));
+        self.deposit(seen.film, radiance * (weight * seen.importance));
     }
 
     /// A light that the camera sees directly: its own surface is where the path "ends".
