@@ -70,6 +70,7 @@ impl LightTracer<'_> {
             lanes: Lanes::Shared,
             hero,
             depth: 0,
+            passed: 0,
             sobol,
             index,
         };

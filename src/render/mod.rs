@@ -222,6 +222,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             lanes: Lanes::Shared,
             hero,
             depth: 0,
+            passed: 0,
             sobol,
             index,
         };

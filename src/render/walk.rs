@@ -14,6 +14,9 @@ const NEGLIGIBLE: f32 = 1.0 / (1u128 << 100) as f32;
 /// Scattering events before Russian roulette.
 const ROULETTE_DEPTH: u32 = 4;
 
+/// Boundaries without effect that a path may cross: they do not count as events, and no path may go on for ever.
+const MAX_PASSED: u32 = 1 << 20;
+
 /// A path under way.
 #[derive(Debug)]
 pub struct Walk<'a> {
@@ -31,6 +34,8 @@ pub struct Walk<'a> {
     pub hero: usize,
     /// Scattering events so far.
     pub depth: u32,
+    /// Boundaries crossed so far that did nothing.
+    pub passed: u32,
     /// Random numbers: those of vertex v are group v + 1.
     pub sobol: Sobol,
     /// Index of the path in its sequence.
@@ -74,8 +79,7 @@ impl Walk<'_> {
         let Workspace { spectra, interiors, beyond, counters, .. } = &mut *self.workspace;
         let known = beyond.set_past(interiors, self.scene, surface, medium, self.ray.direction);
         let (from, to) = (interiors.medium(self.scene), beyond.medium(self.scene));
-        let boundary =
-            Dielectric { from: spectra.indices(self.scene, from), to: spectra.indices(self.scene, to) };
+        let boundary = Dielectric { from: spectra.indices(self.scene, from), to: spectra.indices(self.scene, to) };
         let mut cross = || {
             counters.medium_underflows += u64::from(!known);
             std::mem::swap(interiors, beyond);
@@ -83,7 +87,8 @@ impl Walk<'_> {
         if from == to || boundary.is_invisible() {
             cross();
             self.ray = surface.spawn(self.ray.direction);
-            return Crossing::Passed;
+            self.passed += 1;
+            return if self.passed < MAX_PASSED { Crossing::Passed } else { Crossing::Ended };
         }
         let entering = surface.geometric.dot(self.ray.direction.as_dvec3()) < 0.0;
         let normal = if entering { surface.geometric } else { -surface.geometric };

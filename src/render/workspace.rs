@@ -135,7 +135,14 @@ impl Interiors {
 
     /// Becomes what holds the points just past a surface of a transparent object, for a path that comes from where
     /// `before` holds; `false` when leaving an object that was never entered, which changes nothing.
-    pub fn set_past(&mut self, before: &Self, scene: &Scene, surface: &Surface, medium: MediumId, direction: Vec3) -> bool {
+    pub fn set_past(
+        &mut self,
+        before: &Self,
+        scene: &Scene,
+        surface: &Surface,
+        medium: MediumId,
+        direction: Vec3,
+    ) -> bool {
         if scene.objects[surface.object as usize].coincident {
             self.reset(&scene.interiors_at(surface.spawn(direction).origin));
             return true;

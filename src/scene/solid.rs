@@ -102,7 +102,9 @@ impl Scene {
                 b.clone().filter_map(|t| self.plane(t)).any(|plane| planes.contains(plane))
             }
             // Lenses and balls can share a cap; other surfaces only themselves.
-            (SolidShape::Analytic(a), SolidShape::Analytic(b)) => self.analytic[*a].may_share_a_face(&self.analytic[*b]),
+            (SolidShape::Analytic(a), SolidShape::Analytic(b)) => {
+                self.analytic[*a].may_share_a_face(&self.analytic[*b])
+            }
             _ => false,
         }
     }
