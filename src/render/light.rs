@@ -3,7 +3,7 @@
 use super::path::camera_density;
 use super::walk::{Crossing, Walk};
 use super::{Techniques, bounce};
-use crate::bsdf::{Bsdf, Lanes};
+use crate::bsdf::Bsdf;
 use crate::film::{Filter, Sensor, Splat};
 use crate::geometry::{Frame, Ray, offset_origin};
 use crate::sampling::{Draw, Sobol, balance_heuristic};
@@ -62,18 +62,8 @@ impl LightTracer<'_> {
         let inside = if INTERIORS && light.may_be_inside { scene.interiors_at(origin) } else { Vec::new() };
         workspace.interiors.reset(&inside);
         let spectrum = workspace.spectra.spectrum(scene, light.spectrum);
-        let mut walk = Walk {
-            scene,
-            workspace,
-            ray: Ray { origin, direction: emission.direction },
-            throughput: SampledSpectrum::ONE,
-            lanes: Lanes::Shared,
-            hero,
-            depth: 0,
-            passed: 0,
-            sobol,
-            index,
-        };
+        let mut walk =
+            Walk::start(scene, workspace, Ray { origin, direction: emission.direction }, hero, (sobol, index));
         let mut target = Target {
             tracer: self,
             density: self.techniques.light_path_density(scene, light_index as u32, &emission.exit()),

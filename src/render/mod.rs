@@ -8,7 +8,7 @@ mod workspace;
 
 pub use workspace::Counters;
 
-use crate::bsdf::{Bsdf, BsdfSample, Lanes};
+use crate::bsdf::{Bsdf, BsdfSample};
 use crate::color::Observer;
 use crate::film::{CAMERA_REPLICATES, Film, LIGHT_REPLICATES, PixelSums, Sensor, Splat};
 use crate::geometry::Frame;
@@ -214,18 +214,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 None => workspace.interiors.reset(&scene.interiors_at(ray.origin)),
             }
         }
-        let mut walk = Walk {
-            scene,
-            workspace,
-            ray,
-            throughput: SampledSpectrum::ONE,
-            lanes: Lanes::Shared,
-            hero,
-            depth: 0,
-            passed: 0,
-            sobol,
-            index,
-        };
+        let mut walk = Walk::start(scene, workspace, ray, hero, (sobol, index));
         let radiance = path::radiance::<DISPERSION, INTERIORS>(&mut walk, &self.techniques, self.settings.max_depth);
         sums.add_sample(replicate, self.xyz(&wavelengths, radiance))
     }

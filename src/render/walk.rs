@@ -53,7 +53,19 @@ pub enum Crossing {
     Ended,
 }
 
-impl Walk<'_> {
+impl<'a> Walk<'a> {
+    /// A path that starts along a ray, with all lanes, in what the workspace's interiors say.
+    pub fn start(
+        scene: &'a Scene,
+        workspace: &'a mut Workspace,
+        ray: Ray,
+        hero: usize,
+        (sobol, index): (Sobol, u64),
+    ) -> Self {
+        let (throughput, lanes) = (SampledSpectrum::ONE, Lanes::Shared);
+        Self { scene, workspace, ray, throughput, lanes, hero, depth: 0, passed: 0, sobol, index }
+    }
+
     /// The eight random numbers of the current vertex.
     pub fn random(&self) -> [f32; DIMENSIONS] {
         self.sobol.group(self.index, self.depth + 1)
