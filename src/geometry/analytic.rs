@@ -472,7 +472,8 @@ pub(super) mod tests {
     }
 
     /// The same with 10⁶ hits a shape, and at sizes and proportions near the limits of f32 positions for shapes without
-    /// edges (within rounding error of an edge, a step off one face can pass another).
+    /// edges (within rounding error of an edge, a step off one face can pass another):
+    /// `cargo test --release -- --ignored a_million_times`.
     #[test]
     #[ignore = "takes minutes"]
     fn rays_enter_and_leave_in_turn_a_million_times() {

@@ -204,7 +204,7 @@ impl Light {
 
     /// Share of its power that light paths send to what they are aimed at, roughly.
     pub fn aimed_share(&self, bounds: Option<Aabb>, aim: &Aim, scene_radius: f32) -> f64 {
-        let share = match (self.kind.clone(), bounds) {
+        let share = match (&self.kind, bounds) {
             (LightKind::Directional { .. } | LightKind::Environment, _) => {
                 let ratio = aim.radius / scene_radius;
                 ratio * ratio
@@ -223,15 +223,6 @@ impl Light {
     /// Whether light paths can start from it.
     pub fn can_emit(&self) -> bool {
         !matches!(self.kind, LightKind::Area { shape: AreaShape::Unsampled, .. })
-    }
-
-    /// Whether a ray can run into it.
-    pub fn is_delta(&self) -> bool {
-        match self.kind {
-            LightKind::Point { .. } | LightKind::Spot { .. } | LightKind::Beam { .. } => true,
-            LightKind::Directional { one_minus_cos, .. } => one_minus_cos == 0.0,
-            LightKind::Area { .. } | LightKind::Environment => false,
-        }
     }
 
     /// Whether a ray that leaves the scene can run into it.

@@ -68,6 +68,11 @@ fn crossings(tree: &Bvh, positions: &[Vec3], triangles: &[[u32; 3]], point: Vec3
     balance
 }
 
+/// Whether a box meets the box of one of these.
+pub(super) fn any_overlaps(solids: &[Solid], bounds: &Aabb) -> bool {
+    solids.iter().any(|s| s.bounds.overlaps(bounds))
+}
+
 impl Scene {
     /// The transparent objects that hold a point, larger ones first: they are taken to have been entered first.
     pub fn interiors_at(&self, point: Vec3) -> Vec<(u32, MediumId)> {
@@ -76,7 +81,7 @@ impl Scene {
 
     /// Whether a box meets the box of a transparent object, so that points in it have to ask [`Self::interiors_at`].
     pub fn may_be_inside(&self, bounds: &Aabb) -> bool {
-        self.solids.iter().any(|s| s.bounds.overlaps(bounds))
+        any_overlaps(&self.solids, bounds)
     }
 
     /// Marks the transparent objects that have faces in one plane, or may have. A ray meets only one of two such faces,

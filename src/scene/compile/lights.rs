@@ -9,7 +9,8 @@ use crate::geometry::{Aabb, AnalyticShape, triangle_area};
 use crate::math;
 use crate::sampling::AliasTable;
 use crate::scene::description::{self, LightDescription, ObjectDescription, SceneDescription, ShapeDescription};
-use crate::scene::{Aim, AreaShape, Light, LightKind};
+use crate::scene::solid::any_overlaps;
+use crate::scene::{Aim, AreaShape, Light, LightKind, Solid};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum, WavelengthDensity};
 use glam::{DAffine3, DVec3};
 
@@ -45,6 +46,7 @@ const FAINTEST: f64 = 1.0 / (1u128 << 100) as f64;
 pub fn compile(
     description: &SceneDescription,
     geometry: &mut Geometry,
+    solids: &[Solid],
     spectra: &mut Spectra,
     normalization: &Normalization,
     warnings: &mut Vec<String>,
@@ -78,7 +80,7 @@ pub fn compile(
         let light = Light {
             spectrum: spectra.add(&raw.spectrum, factor),
             wavelengths: spectral.density(std::slice::from_ref(&raw), normalization.radius),
-            may_be_inside: raw.bounds.is_some_and(|b| may_be_inside(geometry, &b)),
+            may_be_inside: raw.bounds.is_some_and(|b| any_overlaps(solids, &b)),
             kind: raw.kind,
         };
         let luminance = xyz_of_emission(&raw.spectrum, Observer::cie_1931_2deg()).y * factor;
@@ -233,11 +235,6 @@ fn sphere_light(center: DVec3, radius: f64, transform: &DAffine3) -> (AreaShape,
     let radius = radius * scale2.sqrt();
     let center = transform.transform_point3(center).as_vec3();
     (AreaShape::Sphere { center, radius: radius as f32 }, (4.0 * std::f64::consts::PI * radius * radius) as f32)
-}
-
-fn may_be_inside(geometry: &Geometry, bounds: &Aabb) -> bool {
-    use crate::scene::Material;
-    geometry.objects.iter().any(|o| matches!(o.material, Material::Dielectric { .. }) && o.bounds.overlaps(bounds))
 }
 
 /// A sphere around everything that can focus light; `None` if nothing can.

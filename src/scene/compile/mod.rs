@@ -84,12 +84,12 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
     let materials = Materials::compile(description, &mut spectra, &normalization, &mut warnings)?;
     let mut geometry = Geometry::compile(description, placed, &normalization, &materials)?;
     let bvh = Bvh::build(&geometry.positions, &geometry.triangles, &geometry.analytic_bounds());
-    let lights = lights::compile(description, &mut geometry, &mut spectra, &normalization, &mut warnings)?;
+    let solids = geometry.solids();
+    let lights = lights::compile(description, &mut geometry, &solids, &mut spectra, &normalization, &mut warnings)?;
     let features = SceneFeatures {
         dispersion: materials.media.iter().any(|m| m.dispersive),
         interiors: !materials.media.is_empty(),
     };
-    let solids = geometry.solids();
     let mut scene = Scene {
         bvh,
         positions: geometry.positions,
