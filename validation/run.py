@@ -6,7 +6,9 @@ Python 3.9 and looks for such a one on the path. The packages go into validation
 requirements.txt changes. Writes validation/report.md; the exit code is 1 if anything is out of tolerance.
 """
 
+import argparse
 import hashlib
+import importlib
 import json
 import os
 import shutil
@@ -21,6 +23,7 @@ ENVIRONMENT = HERE / ".venv"
 REQUIREMENTS = HERE / "requirements.txt"
 PYTHONS = [(3, 14), (3, 13), (3, 12), (3, 11)]  # what colour-science 0.4.7 and numpy 2.4 support
 INSIDE = "ABBE_VALIDATION_INSIDE"
+PROFILE = os.environ.get("ABBE_VALIDATION_PROFILE", "release")  # "dev" compiles faster
 
 
 def venv_python():
@@ -59,20 +62,57 @@ def target_folder():
 
 def abbe_binary():
     """The command, built if it is not there."""
-    binary = target_folder() / "release" / ("abbe.exe" if os.name == "nt" else "abbe")
+    binary = target_folder() / ("debug" if PROFILE == "dev" else PROFILE) / ("abbe.exe" if os.name == "nt" else "abbe")
     if not binary.exists():
-        subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=ROOT, check=True)
+        subprocess.run(["cargo", "build", "--profile", PROFILE, "--quiet"], cwd=ROOT, check=True)
     return binary
 
 
 def color_values(request):
     """What the crate's colour library answers; the example is brought up to date first."""
-    command = ["cargo", "run", "--release", "--quiet", "--example", "color_values"]
+    command = ["cargo", "run", "--profile", PROFILE, "--quiet", "--example", "color_values"]
     done = subprocess.run(command, cwd=ROOT, input=json.dumps(request), stdout=subprocess.PIPE, text=True, check=True)
     return json.loads(done.stdout)
 
 
-def all_rows():
+def evaluate_all(requests):
+    """Values of the library's functions at lists of arguments; the example is brought up to date first."""
+    command = ["cargo", "run", "--profile", PROFILE, "--quiet", "--example", "evaluate"]
+    text = json.dumps([{"function": function, "arguments": arguments} for function, arguments in requests])
+    done = subprocess.run(command, cwd=ROOT, input=text, stdout=subprocess.PIPE, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def evaluate(function, arguments):
+    """Values of one function."""
+    return evaluate_all([(function, arguments)])[0]
+
+
+def subject_rows(only, frozen):
+    """The modules of subjects/, each with `comparisons()`, `checks(evaluate)` or both."""
+    import comparison
+
+    rows = []
+    for path in sorted((HERE / "subjects").glob("*.py")):
+        if only and path.stem not in only:
+            continue
+        module = importlib.import_module("subjects." + path.stem)
+        comparisons = module.comparisons() if hasattr(module, "comparisons") else []
+        values = evaluate_all([(c.function, c.arguments) for c in comparisons])
+        rows += [c.row(v) for c, v in zip(comparisons, values)]
+        if hasattr(module, "checks"):
+            rows += module.checks(evaluate)
+        if frozen:
+            comparison.freeze(HERE / "reference", path.stem, comparisons)
+    return rows
+
+
+def all_rows(only, frozen):
+    rows = subject_rows(only, frozen)
+    return rows if only else rows + other_rows()
+
+
+def other_rows():
     import rgb
     import tables
     import xyz
@@ -105,16 +145,25 @@ def write_report(table):
     (HERE / "report.md").write_text(head + table, encoding="utf-8")
 
 
+def arguments():
+    parser = argparse.ArgumentParser(description="Compares abbe with reference packages.")
+    parser.add_argument("--freeze", action="store_true", help="write the values that cargo test checks to reference/")
+    parser.add_argument("--only", nargs="+", metavar="SUBJECT", help="modules of subjects/ alone, without a report")
+    return parser.parse_args()
+
+
 def main():
+    wanted = arguments()
     if os.environ.get(INSIDE) != "1":
         ensure_environment()
-        command = [str(venv_python()), str(Path(__file__).resolve())]
+        command = [str(venv_python()), str(Path(__file__).resolve()), *sys.argv[1:]]
         sys.exit(subprocess.run(command, env={**os.environ, INSIDE: "1", "PYTHONWARNINGS": "ignore"}).returncode)
     start = time.monotonic()
     sys.path.insert(0, str(HERE))
-    rows = all_rows()
+    rows = all_rows(wanted.only, wanted.freeze)
     table = formatted(rows)
-    write_report(table)
+    if not wanted.only:
+        write_report(table)
     print(table, end="")
     missed = sum(not row[4] for row in rows)
     print(f"{len(rows)} subjects, {missed} out of tolerance, {time.monotonic() - start:.0f} s")

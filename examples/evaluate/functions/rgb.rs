@@ -1,0 +1,6 @@
+//! Nothing can be asked for yet.
+
+use super::Function;
+
+/// By name.
+pub const FUNCTIONS: &[(&str, Function)] = &[];
