@@ -336,7 +336,7 @@ fn wedge_at_the_critical_angle() {
         scene["camera"]["up"] = json!([0, 1, 0]);
         scene["camera"]["fov_degrees"] = json!(1e-5);
         scene["render"]["max_depth"] = json!(2);
-        scene["render"]["samples_per_pixel"] = json!(2048);
+        scene["render"]["samples_per_pixel"] = json!(1024);
         let step = 0.05;
         let exact: f64 = (0..(470.0 / step) as u32)
             .map(|i| 360.0 + (f64::from(i) + 0.5) * step)
@@ -346,7 +346,7 @@ fn wedge_at_the_critical_angle() {
                 (1.0 - into) * (1.0 - out) * observer.eval(nm).element_sum() * step / observer.y_integral()
             })
             .sum();
-        Estimate::over_seeds(&scene, 6, mean_xyz_sum).check(&format!("wedge, critical {name}"), exact, 2e-2);
+        Estimate::over_seeds(&scene, 6, mean_xyz_sum).check(&format!("wedge, critical {name}"), exact, 2.5e-2);
     }
 }
 
