@@ -64,10 +64,16 @@
 //! * `[Burley2020]` B. Burley, Practical hash-based Owen scrambling, JCGT 9(4), 2020.
 //! * `[Burns2019]` S. A. Burns, Numerical methods for smoothest reflectance reconstruction, Color Res. Appl. 45, 2019.
 //! * `[CIE15]` CIE 015:2018, Colorimetry, 4th edition.
+//! * `[CIE159]` CIE 159:2004, A colour appearance model for colour management systems: CIECAM02.
+//! * `[CIE248]` CIE 248:2022, The CIE 2016 colour appearance model for colour management systems: CIECAM16.
 //! * `[Duff2017]` T. Duff et al., Building an orthonormal basis, revisited, JCGT 6(1), 2017.
 //! * `[Haines2019]` E. Haines et al., Precision improvements for ray/sphere intersection, Ray Tracing Gems 7, 2019.
 //! * `[Harris1978]` F. J. Harris, On the use of windows for harmonic analysis with the DFT, Proc. IEEE 66(1), 1978.
 //! * `[Heitz2019]` E. Heitz, A low-distortion map between triangle and square, 2019.
+//! * `[Hellwig2022]` L. Hellwig and M. D. Fairchild, Brightness, lightness, colorfulness, and chroma in CIECAM02 and
+//!   CAM16, Color Res. Appl. 47, 2022.
+//! * `[Hellwig2022a]` L. Hellwig et al., Extending CIECAM02 and CAM16 for the Helmholtz–Kohlrausch effect, Color Res.
+//!   Appl. 47, 2022.
 //! * `[Higham2002]` N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
 //! * `[IEC61966]` IEC 61966-2-1, Default RGB colour space – sRGB, 1999.
 //! * `[ISO7944]` ISO 7944, Optics and optical instruments – Reference wavelengths, 1998.
@@ -76,6 +82,8 @@
 //!   Sci. Comput. 30(5), 2008.
 //! * `[LaineKarras2011]` S. Laine and T. Karras, Stratified sampling for stochastic transparency, CGF 30(4), 2011.
 //! * `[Lam1985]` K. M. Lam, Metamerism and colour constancy, PhD thesis, Bradford, 1985.
+//! * `[Li2017]` C. Li et al., Comprehensive color solutions: CAM16, CAT16, and CAM16-UCS, Color Res. Appl. 42, 2017.
+//! * `[Luo2006]` M. R. Luo et al., Uniform colour spaces based on CIECAM02, Color Res. Appl. 31, 2006.
 //! * `[Mitchell1990]` D. P. Mitchell, Robust ray intersection with interval arithmetic, Graphics Interface, 1990.
 //! * `[Moore2009]` R. E. Moore et al., Introduction to Interval Analysis, 2009.
 //! * `[PBRT4]` M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, 4th edition, 2023.
@@ -85,6 +93,9 @@
 //! * `[Reinhard2002]` E. Reinhard et al., Photographic tone reproduction for digital images, SIGGRAPH, 2002.
 //! * `[Rodrigues1840]` O. Rodrigues, Des lois géométriques qui régissent les déplacements d'un système solide, 1840.
 //! * `[SI2019]` BIPM, The International System of Units, 9th edition, 2019.
+//! * `[Safdar2017]` M. Safdar et al., Perceptually uniform color space for image signals, Opt. Express 25, 2017.
+//! * `[Safdar2021]` M. Safdar et al., ZCAM, a colour appearance model based on a high dynamic range uniform colour
+//!   space, Opt. Express 29, 2021.
 //! * `[Schoen1970]` A. H. Schoen, Infinite periodic minimal surfaces without self-intersections, NASA TN D-5541, 1970.
 //! * `[ShirleyChiu1997]` P. Shirley and K. Chiu, A low distortion map between disk and square, JGT 2(3), 1997.
 //! * `[Steele2014]` G. L. Steele et al., Fast splittable pseudorandom number generators, OOPSLA, 2014.
@@ -100,6 +111,8 @@
 //! * `[Wilkie2014]` A. Wilkie et al., Hero wavelength spectral sampling, CGF 33(4), 2014.
 //! * `[Woop2013]` S. Woop, C. Benthin, I. Wald, Watertight ray/triangle intersection, JCGT 2(1), 2013.
 //! * `[Ylitie2017]` H. Ylitie et al., Efficient incoherent ray traversal on GPUs through compressed wide BVHs, HPG, 2017.
+//! * `[Zhai2018]` Q. Zhai and M. R. Luo, Study of chromatic adaptation via neutral white matches, Opt. Express 26,
+//!   2018.
 
 pub mod bsdf;
 pub mod cli;

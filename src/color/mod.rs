@@ -9,6 +9,7 @@
 //! Tables come from data/, where each file names its source, edition and licence.
 
 pub mod adaptation;
+pub mod appearance;
 pub mod illuminant;
 pub mod integration;
 mod observer;
