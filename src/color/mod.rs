@@ -10,11 +10,15 @@
 
 pub mod adaptation;
 pub mod appearance;
+pub mod chroma;
+pub mod difference;
 pub mod illuminant;
 pub mod integration;
+pub mod lightness;
 mod observer;
 mod rgb;
 mod smoothest;
+pub mod space;
 mod table;
 pub mod temperature;
 pub mod thermal;
