@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the reflectances of data/quality from colour-science, digit for digit: what light is judged by.
+"""Writes the reflectances of data/quality from colour-science, digit for digit: what light is
+judged by; and luminous efficiency functions.
 
 Run it with the interpreter that validation/run.py made:
 
@@ -41,13 +42,21 @@ def tables():
     return made
 
 
-def header(title, edition):
+# Name of a column -> name in colour-science. The photopic functions of the CIE are the observers' ȳ.
+EFFICIENCIES = {
+    "scotopic-1951": "CIE 1951 Scotopic Standard Observer",
+    "judd-1951": "Judd Modified CIE 1951 Photopic Standard Observer",
+    "judd-vos-1978": "Judd-Vos Modified CIE 1978 Photopic Standard Observer",
+}
+
+
+def header(title, edition, unit="reflectance"):
     return (
         f"# {title}\n"
         f"# edition: {edition}\n"
         f"# source: PyPI colour-science {metadata.version('colour-science')}\n"
         "# licence: BSD-3-Clause, data/LICENSES/colour-science.txt\n"
-        "# unit: wavelength in nm; reflectance\n"
+        f"# unit: wavelength in nm; {unit}\n"
         "# script: validation/export_quality.py\n"
     )
 
@@ -55,6 +64,12 @@ def header(title, edition):
 def main():
     for name, (title, edition, columns, sds) in tables().items():
         write(DATA / "quality" / f"{name}.csv", header(title, edition), columns, [samples(sd) for sd in sds])
+    write(
+        DATA / "quality" / "luminous_efficiency.csv",
+        header("luminous efficiency functions that are not an observer's", "CIE 1951; Judd 1951; Vos 1978", "dimensionless"),
+        list(EFFICIENCIES),
+        [samples(colour.SDS_LEFS[name]) for name in EFFICIENCIES.values()],
+    )
 
 
 if __name__ == "__main__":
