@@ -9,11 +9,16 @@
 //! Tables come from data/, where each file names its source, edition and licence.
 
 pub mod adaptation;
+pub mod astm_e308;
+pub mod daylight;
 pub mod illuminant;
 pub mod integration;
+pub mod led;
+pub mod measured;
 mod observer;
 mod rgb;
 mod smoothest;
+pub mod sums;
 mod table;
 pub mod temperature;
 pub mod thermal;
