@@ -65,9 +65,12 @@
 //! * `[Burns2019]` S. A. Burns, Numerical methods for smoothest reflectance reconstruction, Color Res. Appl. 45, 2019.
 //! * `[CIE15]` CIE 015:2018, Colorimetry, 4th edition.
 //! * `[CIE159]` CIE 159:2004, A colour appearance model for colour management systems: CIECAM02.
+//! * `[CIE167]` CIE 167:2005, Recommended practice for tabulating spectral data for use in colour computations.
 //! * `[CIE170-2]` CIE 170-2:2015, Fundamental chromaticity diagram with physiological axes, part 2.
 //! * `[CIE248]` CIE 248:2022, The CIE 2016 colour appearance model for colour management systems: CIECAM16.
 //! * `[Duff2017]` T. Duff et al., Building an orthonormal basis, revisited, JCGT 6(1), 2017.
+//! * `[E2022]` ASTM E2022, Standard practice for calculation of weighting factors for tristimulus integration, 2016.
+//! * `[E308]` ASTM E308, Standard practice for computing the colors of objects by using the CIE system, 2015.
 //! * `[Haines2019]` E. Haines et al., Precision improvements for ray/sphere intersection, Ray Tracing Gems 7, 2019.
 //! * `[Harris1978]` F. J. Harris, On the use of windows for harmonic analysis with the DFT, Proc. IEEE 66(1), 1978.
 //! * `[Heitz2019]` E. Heitz, A low-distortion map between triangle and square, 2019.
@@ -75,18 +78,26 @@
 //!   CAM16, Color Res. Appl. 47, 2022.
 //! * `[Hellwig2022a]` L. Hellwig et al., Extending CIECAM02 and CAM16 for the Helmholtz–Kohlrausch effect, Color Res.
 //!   Appl. 47, 2022.
+//! * `[Hernandez1999]` J. Hernández-Andrés et al., Calculating correlated color temperatures across the entire gamut of
+//!   daylight and skylight chromaticities, Appl. Opt. 38, 1999.
 //! * `[Higham2002]` N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
 //! * `[IEC61966]` IEC 61966-2-1, Default RGB colour space – sRGB, 1999.
 //! * `[ISO7944]` ISO 7944, Optics and optical instruments – Reference wavelengths, 1998.
 //! * `[Ize2013]` T. Ize, Robust BVH ray traversal, JCGT 2(2), 2013.
 //! * `[JoeKuo2008]` S. Joe and F. Y. Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J.
 //!   Sci. Comput. 30(5), 2008.
+//! * `[Kang2002]` B. Kang et al., Design of advanced color temperature control system for HDTV applications, J. Korean
+//!   Phys. Soc. 41, 2002.
+//! * `[Krystek1985]` M. Krystek, An algorithm to calculate correlated colour temperature, Color Res. Appl. 10, 1985.
 //! * `[LaineKarras2011]` S. Laine and T. Karras, Stratified sampling for stochastic transparency, CGF 30(4), 2011.
 //! * `[Lam1985]` K. M. Lam, Metamerism and colour constancy, PhD thesis, Bradford, 1985.
 //! * `[Li2017]` C. Li et al., Comprehensive color solutions: CAM16, CAT16, and CAM16-UCS, Color Res. Appl. 42, 2017.
 //! * `[Luo2006]` M. R. Luo et al., Uniform colour spaces based on CIECAM02, Color Res. Appl. 31, 2006.
+//! * `[McCamy1992]` C. S. McCamy, Correlated color temperature as an explicit function of chromaticity coordinates, Color
+//!   Res. Appl. 17, 1992.
 //! * `[Mitchell1990]` D. P. Mitchell, Robust ray intersection with interval arithmetic, Graphics Interface, 1990.
 //! * `[Moore2009]` R. E. Moore et al., Introduction to Interval Analysis, 2009.
+//! * `[Ohno2005]` Y. Ohno, Spectral design considerations for white LED color rendering, Opt. Eng. 44, 2005.
 //! * `[Ohno2014]` Y. Ohno, Practical use and calculation of CCT and Duv, LEUKOS 10(1), 2014.
 //! * `[PBRT4]` M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, 4th edition, 2023.
 //! * `[Planck1901]` M. Planck, Über das Gesetz der Energieverteilung im Normalspectrum, Ann. Phys. 309, 1901.
@@ -94,6 +105,8 @@
 //! * `[PrestonThomas1990]` H. Preston-Thomas, The International Temperature Scale of 1990, Metrologia 27, 1990.
 //! * `[Quilez2013]` I. Quilez, Smooth minimum, 2013.
 //! * `[Reinhard2002]` E. Reinhard et al., Photographic tone reproduction for digital images, SIGGRAPH, 2002.
+//! * `[Robertson1968]` A. R. Robertson, Computation of correlated color temperature and distribution temperature, J. Opt.
+//!   Soc. Am. 58, 1968.
 //! * `[Rodrigues1840]` O. Rodrigues, Des lois géométriques qui régissent les déplacements d'un système solide, 1840.
 //! * `[SI2019]` BIPM, The International System of Units, 9th edition, 2019.
 //! * `[Safdar2017]` M. Safdar et al., Perceptually uniform color space for image signals, Opt. Express 25, 2017.
