@@ -23,6 +23,7 @@ pub mod measured;
 mod observer;
 pub mod quality;
 mod rgb;
+mod root;
 mod smoothest;
 pub mod space;
 pub mod sums;
