@@ -1,4 +1,4 @@
-//! The colour library: observers, illuminants, XYZ by an exact rule, RGB spaces, spectra from RGB.
+//! The colour library: observers, illuminants, XYZ by an exact rule, RGB spaces, adaptation, gamuts, spectra from RGB.
 //!
 //! It knows spectra and nothing of rendering. All of it is f64. Conventions:
 //!
@@ -9,6 +9,7 @@
 //! Tables come from data/, where each file names its source, edition and licence.
 
 pub mod adaptation;
+pub mod gamut;
 pub mod illuminant;
 pub mod integration;
 mod observer;
