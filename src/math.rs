@@ -55,11 +55,13 @@ pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
+/// Natural logarithm of 1 + x, accurate near 0.
 /// ln(1 + x), accurate near 0.
 pub fn ln_1p(x: f64) -> f64 {
     libm::log1p(x)
 }
 
+/// Cube root, with the sign of x.
 /// Logarithm to the base 2.
 pub fn log2(x: f64) -> f64 {
     libm::log2(x)
@@ -83,6 +85,11 @@ pub fn exp10(x: f64) -> f64 {
 /// Cube root; that of a negative number is negative.
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
+}
+
+/// Length of the vector (x, y), without overflow or underflow on the way.
+pub fn hypot(x: f64, y: f64) -> f64 {
+    libm::hypot(x, y)
 }
 
 /// x to the power y.

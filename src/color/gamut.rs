@@ -19,9 +19,9 @@
 //! enters it again and leaves it through green = 0: blue would stay, and blue with a red of −1e-17 lose a sixth of its
 //! chroma. There the face red = 0 is taken as tilted outwards about the edge between blue and black, by just so much that
 //! red + κ green decreases along the ray at blue; away from the edge the tilted face bends back to red = 0. That fills the
-//! notch, which is less than 0.002 deep, and leaves the mapping continuous but for a
-//! band of hues 0.002° wide, where neighbours part by less than 0.01. Where there
-//! is no notch (Display P3, DCI-P3, Adobe RGB) κ is 0. Into spaces with primaries that no light has it stays discontinuous.
+//! notch, which is less than 0.002 deep, and leaves the mapping continuous but for a band of hues 0.002° wide, where
+//! neighbours part by less than 0.01. Where there is no notch (Display P3, DCI-P3, Adobe RGB) κ is 0. Into spaces with
+//! primaries that no light has it stays discontinuous.
 
 use super::adaptation::bradford;
 use super::{LinearRgb, RgbSpace, xyz_from_xy};
@@ -310,6 +310,7 @@ impl FromIterator<LinearRgb> for GamutReport {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::space::oklab_from_xyz;
     use proptest::prelude::*;
 
     fn mapper(name: &str) -> GamutMapper {
@@ -318,8 +319,7 @@ mod tests {
 
     /// Oklab of linear sRGB without the scaling to white; lightness, chroma, hue in degrees.
     fn oklch(rgb: LinearRgb) -> [f64; 3] {
-        let roots = (CONE_FROM_XYZ * RgbSpace::srgb().xyz_from_linear(rgb)).map(math::cbrt);
-        let lab = ROOTS_FROM_LAB.inverse() * roots;
+        let lab = oklab_from_xyz(RgbSpace::srgb().xyz_from_linear(rgb));
         [lab.x, (lab.y * lab.y + lab.z * lab.z).sqrt(), math::atan2(lab.z, lab.y).to_degrees()]
     }
 
