@@ -6,9 +6,18 @@ from colour.models.oklab import MATRIX_1_XYZ_TO_LMS
 from comparison import Comparison, row
 from scipy.optimize import brentq
 
-SPACES = {"srgb": "sRGB", "display-p3": "Display P3", "rec2020": "ITU-R BT.2020", "adobe-rgb": "Adobe RGB (1998)", "dci-p3": "DCI-P3", "acescg": "ACEScg"}
+SPACES = {
+    "srgb": "sRGB",
+    "display-p3": "Display P3",
+    "rec2020": "ITU-R BT.2020",
+    "adobe-rgb": "Adobe RGB (1998)",
+    "dci-p3": "DCI-P3",
+    "acescg": "ACEScg",
+}
 # Ottosson's inverse: its first column is 1, so that greys are neutral.
-ROOTS_FROM_LAB = np.array([[1.0, 0.3963377774, 0.2158037573], [1.0, -0.1055613458, -0.0638541728], [1.0, -0.0894841775, -1.2914855480]])
+ROOTS_FROM_LAB = np.array(
+    [[1.0, 0.3963377774, 0.2158037573], [1.0, -0.1055613458, -0.0638541728], [1.0, -0.0894841775, -1.2914855480]]
+)
 RANDOM = np.random.default_rng(264)
 SAMPLES = np.linspace(1.0, 0.0, 4001)
 
@@ -44,7 +53,11 @@ def mapped(rgb, matrix):
         return np.minimum(np.min([red + allowed, green, blue], axis=0), 1.0 - color.max(axis=0))
 
     first = int(np.argmax(margin(SAMPLES) >= 0.0))
-    t = 1.0 if first == 0 else brentq(lambda t: float(margin(t)[0]), SAMPLES[first], SAMPLES[first - 1], xtol=1e-16, rtol=1e-15)
+    t = (
+        1.0
+        if first == 0
+        else brentq(lambda t: float(margin(t)[0]), SAMPLES[first], SAMPLES[first - 1], xtol=1e-16, rtol=1e-15)
+    )
     return np.clip(colors_at(np.array([t]))[:, 0], 0.0, 1.0)
 
 
@@ -57,11 +70,26 @@ def notch(matrix, back):
 
 
 def colors(count):
-    fixed = [[0, 0, 0], [1, 1, 1], [2, 2, 2], [-1, -1, -1], [0, 0, 50], [1, 1, -0.2], [-0.001, -0.001, 0.3], [-0.0005, 0.0, 0.3], [-1e-4, 1e-3, 0.3], [-1e-17, 0.0, 1.0], [1, 1e-9, -1e-9]]
+    fixed = [
+        [0, 0, 0],
+        [1, 1, 1],
+        [2, 2, 2],
+        [-1, -1, -1],
+        [0, 0, 50],
+        [1, 1, -0.2],
+        [-0.001, -0.001, 0.3],
+        [-0.0005, 0.0, 0.3],
+        [-1e-4, 1e-3, 0.3],
+        [-1e-17, 0.0, 1.0],
+        [1, 1e-9, -1e-9],
+    ]
     wide = RANDOM.uniform(-0.5, 1.5, (count // 2, 3))
     # A P3, Rec. 2020 or ACEScg picture in sRGB.
     others = [colour.RGB_COLOURSPACES[name] for name in ("Display P3", "ITU-R BT.2020", "ACEScg")]
-    pictures = [colour.RGB_to_RGB(RANDOM.uniform(0.0, 1.0, (count // 6, 3)) ** 2, other, colour.RGB_COLOURSPACES["sRGB"]) for other in others]
+    pictures = [
+        colour.RGB_to_RGB(RANDOM.uniform(0.0, 1.0, (count // 6, 3)) ** 2, other, colour.RGB_COLOURSPACES["sRGB"])
+        for other in others
+    ]
     # Near blue, where a ray would leave the gamut, enter it again and leave it for good.
     blue = np.array([0.0, 0.0, 0.3]) + RANDOM.uniform(-1e-3, 1e-3, (count // 6, 3)) * [1.0, 10.0, 1.0]
     return [[float(x) for x in rgb] for rgb in np.vstack([fixed, wide, blue, *pictures])]
@@ -78,9 +106,13 @@ def comparisons():
     clipped = [np.clip(rgb, 0.0, 1.0) for rgb in some]
     lists = [some, some[:1], [[0.5, 0.5, 0.5]] * 3 + [[0.5, -0.5, 2.0]]]
     return [
-        Comparison("gamut, desaturation v. its algorithm in numpy", "gamut_map", arguments, expected, 1e-11, frozen_cases=120),
+        Comparison(
+            "gamut, desaturation v. its algorithm in numpy", "gamut_map", arguments, expected, 1e-11, frozen_cases=120
+        ),
         Comparison("gamut, clipping", "gamut_map", [["srgb", "clip", rgb] for rgb in some], clipped, 0.0),
-        Comparison("gamut, report", "gamut_report", lists, [report(np.asarray(rgb)) for rgb in lists], 1e-12, frozen_cases=0),
+        Comparison(
+            "gamut, report", "gamut_report", lists, [report(np.asarray(rgb)) for rgb in lists], 1e-12, frozen_cases=0
+        ),
     ]
 
 
@@ -88,7 +120,14 @@ def report(rgb):
     excess = np.maximum(0.0, np.maximum(-rgb.min(axis=1), rgb.max(axis=1) - 1.0))
     outside = excess > 0.0
     mean = excess[outside].mean() if outside.any() else 0.0
-    return [outside.sum(), (rgb.min(axis=1) < 0.0).sum(), (rgb.max(axis=1) > 1.0).sum(), outside.mean(), excess.max(), mean]
+    return [
+        outside.sum(),
+        (rgb.min(axis=1) < 0.0).sum(),
+        (rgb.max(axis=1) > 1.0).sum(),
+        outside.mean(),
+        excess.max(),
+        mean,
+    ]
 
 
 def checks(evaluate):
