@@ -17,6 +17,8 @@ pub struct Workspace {
     pub shadow_interiors: Interiors,
     /// The same past the surface at hand.
     pub beyond: Interiors,
+    /// The same past the surface where lanes have parted.
+    pub parted_interiors: Interiors,
     /// What has been counted.
     pub counters: Counters,
 }
@@ -31,6 +33,12 @@ pub struct Counters {
 }
 
 impl Counters {
+    /// Adds another thread's, and tells its rays.
+    pub fn count(&mut self, other: Self) -> u64 {
+        self.add(other);
+        other.rays
+    }
+
     /// Adds another thread's.
     pub fn add(&mut self, other: Self) {
         self.rays += other.rays;
@@ -46,6 +54,7 @@ impl Workspace {
             interiors: Interiors::default(),
             shadow_interiors: Interiors::default(),
             beyond: Interiors::default(),
+            parted_interiors: Interiors::default(),
             counters: Counters::default(),
         }
     }
