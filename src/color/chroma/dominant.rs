@@ -91,6 +91,19 @@ mod tests {
     }
 
     #[test]
+    fn every_observer_has_a_locus() {
+        for name in Observer::names() {
+            let observer = Observer::by_name(name).unwrap();
+            let white = [1.0 / 3.0, 1.0 / 3.0];
+            for lambda in [430.25, 505.5, 560.75, 615.125] {
+                let xy = mixture(white, chromaticity(observer.eval(lambda)), 0.7);
+                let dominant = dominant_wavelength(xy, white, observer).unwrap();
+                assert!((dominant.lambda_nm - lambda).abs() < 1e-8, "{name} {lambda}: {dominant:?}");
+            }
+        }
+    }
+
+    #[test]
     fn half_way_to_a_spectral_light_the_wavelength_is_the_same() {
         let spectral = chromaticity(Observer::cie_1931_2deg().eval(487.25));
         let dominant = of(mixture(D65, spectral, 0.5));

@@ -292,6 +292,18 @@ mod tests {
     }
 
     #[test]
+    fn every_observer_has_limits() {
+        for name in Observer::names() {
+            let colors = OptimalColors::new(illuminant::d65(), Observer::by_name(name).unwrap()).unwrap();
+            let white = chromaticity(colors.white());
+            assert!((colors.limit(white).unwrap() - 1.0).abs() < 1e-12, "{name}");
+            let band = colors.band(470.0, 540.0);
+            let limit = colors.limit(chromaticity(band.xyz)).unwrap();
+            assert!((band.xyz.y / limit - 1.0).abs() < 1e-6, "{name}: {band:?} {limit}");
+        }
+    }
+
+    #[test]
     fn bands_and_what_they_leave_out_make_white() {
         let (band, rest) = (D65.band(480.3, 613.7), D65.band(613.7, 480.3));
         assert!((band.xyz + rest.xyz - D65.white()).abs().max_element() < 1e-15);
