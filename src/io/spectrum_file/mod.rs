@@ -284,9 +284,8 @@ mod tests {
             ("nm,a,b\n400,1,2\n410,nan,1", "line 3, column \"a\": NaN at 410 nm; expected finite numbers"),
             ("nm,a,b\n400,1,\n410,2,", "column \"b\": no samples; expected pairs of wavelength in nm and value"),
             ("400,1,2\n390,,", "line 2: wavelength 390 nm after 400 nm; expected ascending wavelengths"),
-            ("name,400,410,420\nred,0.1,0.2,0.3", "line 1: \"name\"; expected a number with a decimal point"),
             (
-                "wavelength,400,410,420\nred,0.1,0.2,0.3",
+                "patch,400,410,420\nred,0.1,0.2,0.3",
                 "line 2: wavelengths along the line of names; expected them down the first column (transpose the table)",
             ),
             ("-400,1", "line 1: wavelength -400 nm; expected a positive one"),
