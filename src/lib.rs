@@ -64,6 +64,7 @@
 //! * `[Burley2020]` B. Burley, Practical hash-based Owen scrambling, JCGT 9(4), 2020.
 //! * `[Burns2019]` S. A. Burns, Numerical methods for smoothest reflectance reconstruction, Color Res. Appl. 45, 2019.
 //! * `[CIE15]` CIE 015:2018, Colorimetry, 4th edition.
+//! * `[CIE170-2]` CIE 170-2:2015, Fundamental chromaticity diagram with physiological axes, part 2.
 //! * `[Duff2017]` T. Duff et al., Building an orthonormal basis, revisited, JCGT 6(1), 2017.
 //! * `[Haines2019]` E. Haines et al., Precision improvements for ray/sphere intersection, Ray Tracing Gems 7, 2019.
 //! * `[Harris1978]` F. J. Harris, On the use of windows for harmonic analysis with the DFT, Proc. IEEE 66(1), 1978.
@@ -78,9 +79,11 @@
 //! * `[Lam1985]` K. M. Lam, Metamerism and colour constancy, PhD thesis, Bradford, 1985.
 //! * `[Mitchell1990]` D. P. Mitchell, Robust ray intersection with interval arithmetic, Graphics Interface, 1990.
 //! * `[Moore2009]` R. E. Moore et al., Introduction to Interval Analysis, 2009.
+//! * `[Ohno2014]` Y. Ohno, Practical use and calculation of CCT and Duv, LEUKOS 10(1), 2014.
 //! * `[PBRT4]` M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, 4th edition, 2023.
 //! * `[Planck1901]` M. Planck, Über das Gesetz der Energieverteilung im Normalspectrum, Ann. Phys. 309, 1901.
 //! * `[Polyanskiy2024]` M. N. Polyanskiy, Refractiveindex.info database of optical constants, Sci. Data 11, 2024.
+//! * `[PrestonThomas1990]` H. Preston-Thomas, The International Temperature Scale of 1990, Metrologia 27, 1990.
 //! * `[Quilez2013]` I. Quilez, Smooth minimum, 2013.
 //! * `[Reinhard2002]` E. Reinhard et al., Photographic tone reproduction for digital images, SIGGRAPH, 2002.
 //! * `[Rodrigues1840]` O. Rodrigues, Des lois géométriques qui régissent les déplacements d'un système solide, 1840.

@@ -15,6 +15,8 @@ mod observer;
 mod rgb;
 mod smoothest;
 mod table;
+pub mod temperature;
+pub mod thermal;
 pub mod upsample;
 mod xyz;
 
