@@ -1,12 +1,16 @@
 //! Command line: one file a subcommand; the only place that prints, shows progress or exits.
 
+pub mod completions;
 pub mod glass;
+mod plot;
 mod process;
 pub mod render;
 pub mod scene;
+pub mod spectrum;
+mod swatch;
 
 use crate::{Error, ErrorKind, Result};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -37,12 +41,12 @@ enum Command {
     Compare(NotYet),
     /// Run time against error (not yet)
     Bench(NotYet),
-    /// Colour of a spectrum (not yet)
-    Spectrum(NotYet),
+    /// Print the colour of spectra from a file
+    Spectrum(Box<spectrum::SpectrumArgs>),
     /// Spectrum of a colour (not yet)
     Upsample(NotYet),
-    /// Shell completions (not yet)
-    Completions(NotYet),
+    /// Print completions for a shell
+    Completions(completions::CompletionsArgs),
 }
 
 /// Takes anything, as it is refused anyway.
@@ -81,9 +85,9 @@ fn run(command: &Command) -> Result<ExitCode> {
         Command::Develop(args) => not_yet("develop", args),
         Command::Compare(args) => not_yet("compare", args),
         Command::Bench(args) => not_yet("bench", args),
-        Command::Spectrum(args) => not_yet("spectrum", args),
+        Command::Spectrum(args) => done(spectrum::run(args)),
         Command::Upsample(args) => not_yet("upsample", args),
-        Command::Completions(args) => not_yet("completions", args),
+        Command::Completions(args) => done(completions::run(args, Cli::command())),
     }
 }
 
@@ -93,6 +97,10 @@ fn write_data(out: &mut dyn Write, bytes: &[u8]) -> Result<()> {
         Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         result => result.map_err(|e| Error::new(ErrorKind::Io, format!("writing to stdout failed: {e}"))),
     }
+}
+
+fn usage(message: impl Into<String>) -> Error {
+    Error::new(ErrorKind::Usage, message)
 }
 
 fn not_yet(name: &str, args: &NotYet) -> Result<ExitCode> {

@@ -2,9 +2,9 @@
 
 use super::scale::Scale;
 use super::svg::{Anchor, Canvas, number, path_data};
-use super::{CHROMATICITY_X, MAX_NAMED, PANEL_Y, Plot, paint, shortened};
-use crate::color::{Observer, chromaticity, xyz_from_xy, xyz_of_emission};
-use crate::spectrum::Spectrum;
+use super::{CHROMATICITY_X, PANEL_Y, Plot, paint, shortened};
+use crate::color::temperature::{PlanckianLocus, xy_from_uv};
+use crate::color::{Observer, chromaticity, xyz_from_xy};
 
 /// Largest x and y shown.
 const RANGE: [f64; 2] = [0.8, 0.9];
@@ -13,9 +13,9 @@ const LOCUS_NM: [u32; 2] = [380, 700];
 /// Side of a cell of the tint, in x and y; blurred afterwards.
 const CELL: f64 = 0.02;
 /// Labelled wavelengths on the locus, nm.
-const LABELS_NM: [u32; 13] = [460, 470, 480, 490, 500, 510, 520, 540, 560, 580, 600, 620, 700];
+const LABELS_NM: [u32; 12] = [470, 480, 490, 500, 510, 520, 540, 560, 580, 600, 620, 700];
 /// Labelled temperatures on the Planckian locus, K.
-const LABELS_KELVIN: [f64; 4] = [2000.0, 3000.0, 5000.0, 10_000.0];
+const LABELS_KELVIN: [f64; 3] = [3000.0, 5000.0, 10_000.0];
 
 /// From x, y to pixels, at the same scale along both.
 struct Diagram {
@@ -42,14 +42,15 @@ impl Diagram {
 pub fn draw(plot: &Plot, canvas: &mut Canvas) {
     let diagram = Diagram::new();
     let locus = locus(plot.observer);
-    tint(canvas, &diagram, &locus);
     axes(canvas, &diagram);
+    tint(canvas, &diagram, &locus);
     draw_locus(canvas, &diagram, &locus);
     let triangle = plot.space.primaries.map(|xy| diagram.at(xy));
     canvas.path("gamut", &triangle, true, "");
     draw_planckian(canvas, &diagram, plot.observer);
     draw_white(plot, canvas, &diagram);
     draw_points(plot, canvas, &diagram);
+    legend(plot, canvas, &diagram);
 }
 
 /// Wavelengths in nm with their chromaticities, as far as the observer sees them.
@@ -78,7 +79,7 @@ fn tint(canvas: &mut Canvas, diagram: &Diagram, locus: &[(u32, [f64; 2])]) {
             let near = [[0.0, 0.0], [-2.0, 0.0], [2.0, 0.0], [0.0, -2.0], [0.0, 2.0]];
             if near.iter().any(|d| is_inside(&inside, [center[0] + d[0] * CELL, center[1] + d[1] * CELL])) {
                 let [x, y] = diagram.at([corner[0], corner[1] + CELL]).map(number);
-                let fill = paint::hex(paint::brightest(xyz_from_xy(center)));
+                let fill = paint::hex(paint::brightest(xyz_from_xy(center), 1.0));
                 canvas.raw(&format!(r#"<path fill="{fill}" d="M{x} {y}h{side}v{side}h-{side}z"/>"#));
             }
         }
@@ -120,10 +121,8 @@ fn draw_locus(canvas: &mut Canvas, diagram: &Diagram, locus: &[(u32, [f64; 2])])
     let outline: Vec<_> = locus.iter().map(|(_, xy)| diagram.at(*xy)).collect();
     canvas.path("locus", &outline, true, "");
     for (i, &(nm, xy)) in locus.iter().enumerate() {
-        if i == 0 || i + 1 == locus.len() || !LABELS_NM.contains(&nm) {
-            if i + 1 != locus.len() {
-                continue;
-            }
+        if !LABELS_NM.contains(&nm) {
+            continue;
         }
         let at = diagram.at(xy);
         let [out_x, out_y] = outward(&outline, i);
@@ -148,45 +147,57 @@ fn outward(outline: &[[f64; 2]], i: usize) -> [f64; 2] {
     [dy / length, -dx / length]
 }
 
-fn planckian_xy(kelvin: f64, observer: &Observer) -> Option<[f64; 2]> {
-    Some(chromaticity(xyz_of_emission(&Spectrum::blackbody(kelvin).ok()?, observer)))
-}
-
 fn draw_planckian(canvas: &mut Canvas, diagram: &Diagram, observer: &Observer) {
+    let planckian = PlanckianLocus::new(observer);
+    let at = |kelvin| planckian.uv(kelvin).ok().map(|uv| diagram.at(xy_from_uv(uv)));
     // Steps of reciprocal temperature look even: from 25 000 K to 1000 K.
-    let kelvins = (0..=48).map(|i| 1e6 / (40.0 + 20.0 * f64::from(i)));
-    let points: Vec<_> = kelvins.filter_map(|k| planckian_xy(k, observer)).map(|xy| diagram.at(xy)).collect();
+    let points: Vec<_> = (0..=48).filter_map(|i| at(1e6 / (40.0 + 20.0 * f64::from(i)))).collect();
     canvas.path("planck", &points, false, "");
     for kelvin in LABELS_KELVIN {
-        let Some(xy) = planckian_xy(kelvin, observer) else { continue };
-        let at = diagram.at(xy);
+        let Some(at) = at(kelvin) else { continue };
         canvas.circle("dot", at, 2.0, "");
-        canvas.text("small", [at[0] + 4.0, at[1] + 13.0], Anchor::Start, &format!("{kelvin} K"));
+        canvas.text("small halo-text", [at[0] + 3.0, at[1] + 14.0], Anchor::Start, &format!("{kelvin} K"));
     }
 }
 
 fn draw_white(plot: &Plot, canvas: &mut Canvas, diagram: &Diagram) {
-    let (name, xy) = plot.white;
-    let [x, y] = diagram.at(xy);
+    let [x, y] = diagram.at(plot.white.1);
+    cross(canvas, [x, y]);
+}
+
+fn cross(canvas: &mut Canvas, [x, y]: [f64; 2]) {
     canvas.line("white", [x - 4.0, y - 4.0], [x + 4.0, y + 4.0]);
     canvas.line("white", [x - 4.0, y + 4.0], [x + 4.0, y - 4.0]);
-    let label = format!("× {}    ┄ {}    — Planckian locus", shortened(name, 24), plot.space.name);
-    let middle = diagram.x.at(0.5 * RANGE[0]);
-    canvas.text("small", [middle, PANEL_Y[0] - 6.0], Anchor::Middle, &label);
+}
+
+/// What the marks are, in the corner that no light reaches.
+fn legend(plot: &Plot, canvas: &mut Canvas, diagram: &Diagram) {
+    let [left, top] = diagram.at([0.5, 0.87]);
+    let row = |i: f64| top + 17.0 * i;
+    cross(canvas, [left, row(0.0)]);
+    canvas.line("gamut", [left - 9.0, row(1.0)], [left + 9.0, row(1.0)]);
+    canvas.line("planck", [left - 9.0, row(2.0)], [left + 9.0, row(2.0)]);
+    let names = [shortened(plot.white.0, 16), plot.space.name.to_owned(), "Planckian locus".to_owned()];
+    for (i, name) in names.iter().enumerate() {
+        canvas.text("small", [left + 16.0, row(i as f64) + 3.5], Anchor::Start, name);
+    }
 }
 
 fn draw_points(plot: &Plot, canvas: &mut Canvas, diagram: &Diagram) {
-    for curve in plot.curves.iter().filter(|curve| curve.xy[0].is_finite()) {
+    for (i, curve) in plot.curves.iter().enumerate().filter(|(_, curve)| curve.xy[0].is_finite()) {
         let at = diagram.at(curve.xy);
         if let Some(dominant) = curve.dominant_xy {
             canvas.path("dominant", &[diagram.at(plot.white.1), diagram.at(dominant)], false, "");
         }
         let radius = if plot.curves.len() == 1 { 6.0 } else { 4.5 };
+        let is_told_apart = plot.curves.len() > 1 && plot.are_named();
+        let ring = if is_told_apart {
+            format!(r#" style="stroke:{};stroke-width:3""#, paint::hex(paint::LINES[i]))
+        } else {
+            String::new()
+        };
         canvas.circle("halo", at, radius, "");
-        canvas.circle("point", at, radius, &format!(r#" fill="{}""#, paint::hex(curve.color)));
-        if plot.curves.len() > 1 && plot.curves.len() <= MAX_NAMED {
-            canvas.text("small", [at[0] + 8.0, at[1] - 6.0], Anchor::Start, &shortened(curve.name, 24));
-        }
+        canvas.circle("point", at, radius, &format!(r#" fill="{}"{ring}"#, paint::hex(curve.color)));
     }
 }
 
@@ -198,7 +209,9 @@ mod tests {
     fn white_is_inside_the_locus_and_the_corners_are_not() {
         let polygon: Vec<_> = locus(Observer::cie_1931_2deg()).into_iter().map(|(_, xy)| xy).collect();
         assert!(is_inside(&polygon, [0.3333, 0.3333]));
-        assert!(!is_inside(&polygon, [0.7, 0.7]) && !is_inside(&polygon, [0.01, 0.01]) && !is_inside(&polygon, [0.6, 0.1]));
+        assert!(
+            !is_inside(&polygon, [0.7, 0.7]) && !is_inside(&polygon, [0.01, 0.01]) && !is_inside(&polygon, [0.6, 0.1])
+        );
     }
 
     #[test]
@@ -206,7 +219,7 @@ mod tests {
         let locus = locus(Observer::cie_1931_2deg());
         let diagram = Diagram::new();
         let outline: Vec<_> = locus.iter().map(|(_, xy)| diagram.at(*xy)).collect();
-        for (i, &(nm, _)) in locus.iter().enumerate().filter(|(_, (nm, _))| LABELS_NM[..12].contains(nm)) {
+        for (i, &(nm, _)) in locus.iter().enumerate().filter(|(_, (nm, _))| LABELS_NM[..11].contains(nm)) {
             let [x, y] = outward(&outline, i);
             assert!(!is_inside(&outline, [outline[i][0] + 6.0 * x, outline[i][1] + 6.0 * y]), "{nm}");
         }

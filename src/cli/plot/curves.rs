@@ -2,7 +2,7 @@
 
 use super::scale::{Scale, Ticks};
 use super::svg::{Anchor, Canvas, path_data};
-use super::{CURVES_X, Curve, MAX_NAMED, PANEL_Y, Plot, paint, shortened};
+use super::{CURVES_X, Curve, PANEL_Y, Plot, paint, shortened};
 use crate::color::Observer;
 use crate::spectrum::PiecewiseLinear;
 
@@ -28,10 +28,15 @@ pub fn draw(plot: &Plot, canvas: &mut Canvas) {
     if is_alone {
         rainbow(canvas, plot.observer, &outline(&tables[0], &x, &y), y.at(ticks.range()[0].max(0.0)));
     }
-    for (curve, table) in plot.curves.iter().zip(&tables) {
-        draw_curve(canvas, curve, table, is_alone, &x, &y);
+    for (i, (curve, table)) in plot.curves.iter().zip(&tables).enumerate() {
+        let line = match (is_alone, plot.are_named()) {
+            (true, _) => None,
+            (_, true) => Some(paint::LINES[i]),
+            _ => Some(curve.color),
+        };
+        draw_curve(canvas, curve, table, line, &x, &y);
     }
-    if !is_alone {
+    if !is_alone && plot.are_named() {
         legend(plot, canvas);
     }
 }
@@ -73,7 +78,12 @@ fn draw_lamp(canvas: &mut Canvas, name: &str, lamp: &PiecewiseLinear, x: &Scale,
         let top = (y.at(0.0) - PANEL_Y[0]) * 0.97;
         let scale = Scale::new([0.0, highest], [y.at(0.0), y.at(0.0) - top]);
         canvas.path("lamp", &outline(&table, x, &scale), false, "");
-        canvas.text("small", [CURVES_X[1], PANEL_Y[0] - 6.0], Anchor::End, &format!("dashed: {} (relative)", shortened(name, 40)));
+        canvas.text(
+            "small",
+            [CURVES_X[1], PANEL_Y[0] - 6.0],
+            Anchor::End,
+            &format!("dashed: {} (relative)", shortened(name, 40)),
+        );
     }
 }
 
@@ -83,13 +93,15 @@ fn rainbow(canvas: &mut Canvas, observer: &Observer, outline: &[[f64; 2]], base:
         r#"<linearGradient id="rainbow" gradientUnits="userSpaceOnUse" x1="{}" y1="0" x2="{}" y2="0">"#,
         CURVES_X[0], CURVES_X[1]
     ));
-    let largest = observer.curves().into_iter().map(PiecewiseLinear::max).fold(0.0, f64::max);
-    for i in 0..=80 {
-        let offset = f64::from(i) / 80.0;
-        let xyz = observer.eval(RANGE_NM[0] + offset * (RANGE_NM[1] - RANGE_NM[0]));
-        // Opaque where the response is a twentieth of the largest.
-        let opacity = (20.0 * xyz.element_sum() / largest).clamp(0.0, 1.0).sqrt();
-        let color = paint::hex(paint::brightest(xyz));
+    let response = |nm: f64| observer.eval(nm).element_sum();
+    let largest = (380..=780).map(|nm| response(f64::from(nm))).fold(0.0, f64::max);
+    for i in 0..=100 {
+        let offset = f64::from(i) / 100.0;
+        let nm = RANGE_NM[0] + offset * (RANGE_NM[1] - RANGE_NM[0]);
+        // The square root makes the ends visible, as the eye does.
+        let response = (response(nm) / largest).sqrt();
+        let color = paint::hex(paint::brightest(observer.eval(nm), (1.6 * response).clamp(0.12, 1.0)));
+        let opacity = (4.0 * response).clamp(0.3, 1.0);
         canvas.raw(&format!(r#"<stop offset="{offset:.4}" stop-color="{color}" stop-opacity="{opacity:.3}"/>"#));
     }
     canvas.raw("</linearGradient>");
@@ -98,13 +110,20 @@ fn rainbow(canvas: &mut Canvas, observer: &Observer, outline: &[[f64; 2]], base:
     canvas.raw(&format!(r#"<path d="{}" fill="url(#rainbow)" fill-opacity=".9"/>"#, path_data(&area, true)));
 }
 
-fn draw_curve(canvas: &mut Canvas, curve: &Curve, table: &PiecewiseLinear, is_alone: bool, x: &Scale, y: &Scale) {
-    let stroke = if is_alone { String::new() } else { format!(r#" style="stroke:{}""#, paint::hex(curve.color)) };
+fn draw_curve(
+    canvas: &mut Canvas,
+    curve: &Curve,
+    table: &PiecewiseLinear,
+    line: Option<[u8; 3]>,
+    x: &Scale,
+    y: &Scale,
+) {
+    let stroke = line.map_or(String::new(), |color| format!(r#" style="stroke:{}""#, paint::hex(color)));
     let knots = curve.table.lambdas_nm();
     let [first, last] = [knots[0], knots[knots.len() - 1]].map(|nm| nm.clamp(RANGE_NM[0], RANGE_NM[1]));
     let measured = if first < last { table.restricted(first, last) } else { table.clone() };
     let points = outline(&measured, x, y);
-    if !is_alone {
+    if line == Some(curve.color) {
         canvas.path("casing", &points, false, "");
     }
     canvas.path("curve", &points, false, &stroke);
@@ -137,19 +156,19 @@ fn outline(table: &PiecewiseLinear, x: &Scale, y: &Scale) -> Vec<[f64; 2]> {
     all.iter().map(pixel).collect()
 }
 
-/// Names of the curves with their colours, or how many there are.
+/// Names of a few curves with their lines, in the header.
 fn legend(plot: &Plot, canvas: &mut Canvas) {
-    if plot.curves.len() > MAX_NAMED {
-        return;
-    }
-    for (i, curve) in plot.curves.iter().enumerate() {
-        let top = PANEL_Y[0] + 8.0 + 18.0 * i as f64;
-        let fill = paint::hex(curve.color);
+    let mut left = 28.0;
+    let at = 80.0;
+    for (curve, line) in plot.curves.iter().zip(paint::LINES) {
+        let (line, fill) = (paint::hex(line), paint::hex(curve.color));
         canvas.raw(&format!(
-            r#"<rect class="chip" x="{}" y="{top}" width="12" height="12" rx="2" fill="{fill}"/>"#,
-            CURVES_X[0] + 10.0
+            r#"<circle cx="{}" cy="{at}" r="6" fill="{fill}" stroke="{line}" stroke-width="3"/>"#,
+            left + 7.0
         ));
-        canvas.text("note", [CURVES_X[0] + 28.0, top + 10.5], Anchor::Start, &shortened(curve.name, 40));
+        let name = shortened(curve.name, 18);
+        canvas.text("note", [left + 20.0, at + 4.5], Anchor::Start, &name);
+        left += 46.0 + 7.2 * name.chars().count() as f64;
     }
 }
 

@@ -7,8 +7,12 @@ mod paint;
 mod scale;
 mod svg;
 
+use crate::Result;
+use crate::cli::usage;
 use crate::color::{Observer, RgbSpace};
 use crate::spectrum::PiecewiseLinear;
+pub use paint::hex;
+use std::path::Path;
 use svg::{Anchor, Canvas};
 
 /// Width and height of the card, pixels.
@@ -19,8 +23,6 @@ const PANEL_Y: [f64; 2] = [104.0, 424.0];
 const CURVES_X: [f64; 2] = [76.0, 580.0];
 /// Left of the chromaticity diagram, pixels.
 const CHROMATICITY_X: f64 = 664.0;
-/// Most curves that are told apart by name.
-const MAX_NAMED: usize = 6;
 
 /// Colours and strokes; the second set is for readers who prefer dark pages.
 const STYLE: &str = "\
@@ -34,10 +36,12 @@ text{font-family:'Inter','Helvetica Neue','Segoe UI','DejaVu Sans',Arial,sans-se
 .gamut{fill:none;stroke:#171c23;stroke-opacity:.55;stroke-width:1;stroke-dasharray:4 3}
 .white{fill:none;stroke:#171c23;stroke-width:1.3}.dominant{fill:none;stroke:#171c23;stroke-width:1;stroke-dasharray:2 3}
 .halo{fill:none;stroke:#fdfdfe;stroke-width:4}.point{stroke:#171c23;stroke-width:1.5}.chip{stroke:#8b95a1;stroke-width:.8}
-.tint{opacity:.85}
+.tint{opacity:.8}.dot{fill:#171c23}
+.halo-text{paint-order:stroke;stroke:#fdfdfe;stroke-opacity:.55;stroke-width:3px;fill:#171c23}
 @media (prefers-color-scheme:dark){text{fill:#c3cad3}.title{fill:#f1f4f7}.small{fill:#98a3af}
 .card{fill:#14181d;stroke:#333b45}.grid{stroke:#2a313a}.axis{stroke:#69737f}.curve,.casing,.planck,.white,.point{stroke:#f1f4f7}
-.gamut,.dominant{stroke:#f1f4f7}.lamp{stroke:#8993a0}.locus{stroke:#a9b3bf}.halo{stroke:#14181d}.tint{opacity:.6}}";
+.gamut,.dominant{stroke:#f1f4f7}.lamp{stroke:#8993a0}.locus{stroke:#a9b3bf}.halo{stroke:#14181d}.dot{fill:#f1f4f7}
+.halo-text{stroke:#14181d;fill:#f1f4f7}.tint{opacity:.62}}";
 
 /// What is drawn.
 #[derive(Debug)]
@@ -96,13 +100,17 @@ impl Plot<'_> {
         canvas.finish()
     }
 
+    /// Whether the curves are few enough to be told apart by name; else each has its own colour.
+    fn are_named(&self) -> bool {
+        self.curves.len() <= paint::LINES.len()
+    }
+
     fn header(&self, canvas: &mut Canvas) {
         let mut left = 28.0;
         if let [curve] = self.curves.as_slice() {
             let fill = paint::hex(curve.color);
-            canvas.raw(&format!(
-                r#"<rect class="chip" x="{left}" y="22" width="44" height="44" rx="6" fill="{fill}"/>"#
-            ));
+            canvas
+                .raw(&format!(r#"<rect class="chip" x="{left}" y="22" width="44" height="44" rx="6" fill="{fill}"/>"#));
             left += 60.0;
         }
         canvas.text("title", [left, 38.0], Anchor::Start, &shortened(&self.title, 80));
@@ -110,6 +118,18 @@ impl Plot<'_> {
             canvas.text("note", [left, 58.0 + 18.0 * i as f64], Anchor::Start, &shortened(note, 140));
         }
     }
+}
+
+/// Refuses names of pictures that are no SVG.
+///
+/// # Errors
+/// `Usage`.
+pub fn check_name(path: &Path) -> Result<()> {
+    let is_svg = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("svg"));
+    if is_svg || path.as_os_str() == "-" {
+        return Ok(());
+    }
+    Err(usage(format!("--plot {}: expected a name that ends in .svg, or -", path.display())))
 }
 
 /// At most so many characters.

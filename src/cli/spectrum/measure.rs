@@ -1,11 +1,13 @@
 //! The colour of a spectrum for an observer, under a light, in an RGB space.
 
 use super::light::{Lamp, LightFacts};
-use crate::Result;
-use crate::color::{Observer, RgbSpace, chromaticity, xyz_of_emission, xyz_of_reflectance};
+use crate::color::adaptation::bradford;
+use crate::color::chroma::{Dominant, dominant_wavelength};
+use crate::color::space::lab_from_xyz;
+use crate::color::{Observer, RgbSpace, chromaticity, srgb_encode, xyz_of_emission, xyz_of_reflectance};
 use crate::io::spectrum_file::Quantity;
 use crate::spectrum::{PiecewiseLinear, Spectrum};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// How spectra are looked at.
 #[derive(Debug)]
@@ -22,4 +24,91 @@ pub struct Viewing {
     pub white_xyz: DVec3,
     /// What is said about the lamp.
     pub lamp_facts: LightFacts,
+}
+
+/// The colour of one spectrum.
+#[derive(Debug, Clone)]
+pub struct Measurement {
+    /// Tristimulus values: an emission of 1 has Y = 1, a reflectance of 1 that of the lamp's white, Y = 1.
+    pub xyz: DVec3,
+    /// Chromaticity; `None` for black.
+    pub xy: Option<[f64; 2]>,
+    /// Factor on an emission that makes its largest linear component 1; 1 for anything else.
+    pub shown_scale: f64,
+    /// CIE L\*a\*b\* of the shown colour against the lamp's white.
+    pub lab: DVec3,
+    /// Linear RGB, not shown but as it is, inside the gamut or not.
+    pub linear: DVec3,
+    /// Encoded RGB of the shown colour, inside the gamut or not.
+    pub encoded: DVec3,
+    /// Whether the shown colour is inside the gamut, but for rounding.
+    pub in_gamut: bool,
+    /// The shown colour, moved into the gamut, in 8 bits of the space.
+    pub rgb8: [u8; 3],
+    /// The same for sRGB, which screens and drawings show.
+    pub srgb8: [u8; 3],
+    /// Dominant wavelength and purity against the lamp's white; `None` for colours without a hue.
+    pub dominant: Option<Dominant>,
+    /// For emissions.
+    pub light: Option<LightFacts>,
+}
+
+impl Viewing {
+    /// Gathers what follows from the lamp.
+    pub fn new(quantity: Quantity, observer: &'static Observer, space: &'static RgbSpace, lamp: Lamp) -> Self {
+        let white_xyz = xyz_of_reflectance(&Spectrum::Constant(1.0), &lamp.spectrum, observer);
+        let lamp_facts = LightFacts::of(&lamp.spectrum);
+        Self { quantity, observer, space, lamp, white_xyz, lamp_facts }
+    }
+
+    /// XYZ to linear RGB of a space: from the lamp's white to the space's for surfaces, as they are for lights.
+    fn rgb_from_xyz(&self, space: &RgbSpace) -> DMat3 {
+        match self.quantity {
+            Quantity::Emission => space.rgb_from_xyz,
+            _ => space.rgb_from_xyz * bradford(self.white_xyz, space.white_xyz()),
+        }
+    }
+
+    /// The colour of a spectrum.
+    pub fn measure(&self, table: &PiecewiseLinear) -> Measurement {
+        let spectrum = Spectrum::PiecewiseLinear(table.clone());
+        let is_light = self.quantity == Quantity::Emission;
+        let xyz = match is_light {
+            true => xyz_of_emission(&spectrum, self.observer),
+            false => xyz_of_reflectance(&spectrum, &self.lamp.spectrum, self.observer),
+        };
+        let xy = Some(chromaticity(xyz)).filter(|xy| xy[0].is_finite() && xy[1].is_finite());
+        let linear = self.rgb_from_xyz(self.space) * xyz;
+        let shown_scale = if is_light { scale_to_one(linear) } else { 1.0 };
+        let shown = linear * shown_scale;
+        Measurement {
+            xyz,
+            xy,
+            shown_scale,
+            lab: lab_from_xyz(xyz * shown_scale, self.white_xyz),
+            linear,
+            encoded: shown.map(srgb_encode),
+            in_gamut: is_in_gamut(shown),
+            rgb8: bytes(self.space, shown),
+            srgb8: bytes(RgbSpace::srgb(), self.rgb_from_xyz(RgbSpace::srgb()) * xyz * shown_scale),
+            dominant: xy.and_then(|xy| dominant_wavelength(xy, chromaticity(self.white_xyz), self.observer)),
+            light: is_light.then(|| LightFacts::of(&spectrum)),
+        }
+    }
+}
+
+fn scale_to_one(linear: DVec3) -> f64 {
+    let scale = 1.0 / linear.max_element();
+    if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
+}
+
+/// Within the gamut, but for what rounding adds to white or to a primary.
+fn is_in_gamut(linear: DVec3) -> bool {
+    const ROUNDING: f64 = 1e-9;
+    linear.min_element() >= -ROUNDING && linear.max_element() <= 1.0 + ROUNDING
+}
+
+fn bytes(space: &RgbSpace, linear: DVec3) -> [u8; 3] {
+    let _ = space;
+    linear.to_array().map(|c| (255.0 * srgb_encode(c.clamp(0.0, 1.0))).round() as u8)
 }

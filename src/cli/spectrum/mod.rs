@@ -131,7 +131,8 @@ impl Input {
             true => spectrum_file::read_all_from(std::io::stdin().lock(), &file)?,
             false => spectrum_file::read_all(&file)?,
         };
-        let stem = if is_stdin { "spectrum".into() } else { args.file.file_stem().unwrap_or_default().to_string_lossy() };
+        let stem =
+            if is_stdin { "spectrum".into() } else { args.file.file_stem().unwrap_or_default().to_string_lossy() };
         for spectrum in &mut spectra {
             spectrum.name = swatch::harmless(if spectrum.name.is_empty() { &stem } else { &spectrum.name });
             if args.percent {
@@ -165,7 +166,7 @@ fn viewing(args: &SpectrumArgs, input: &Input) -> Result<Viewing> {
     let implied = if args.illuminant.is_some() { Quantity::Reflectance } else { Quantity::Emission };
     let quantity = args.kind.map(Quantity::from).or(input.quantity).unwrap_or(implied);
     let lamp = Lamp::named(args.illuminant.as_deref().unwrap_or("D65"))?;
-    Viewing::new(quantity, Observer::by_name(&args.observer)?, RgbSpace::by_name(&args.space)?, lamp)
+    Ok(Viewing::new(quantity, Observer::by_name(&args.observer)?, RgbSpace::by_name(&args.space)?, lamp))
 }
 
 /// A spectrum with its colour and what is doubtful about it.
@@ -182,7 +183,7 @@ fn measure_all<'a>(input: &'a Input, viewing: &Viewing) -> Result<Vec<Measured<'
             let error = if count == 1 { error } else { error.at(format!("column {:?}", spectrum.name)) };
             error.in_file(&input.file)
         })?;
-        let measurement = viewing.measure(&spectrum.table)?;
+        let measurement = viewing.measure(&spectrum.table);
         Ok(Measured { spectrum, measurement, findings })
     };
     input.spectra.iter().map(measure).collect()
