@@ -5,14 +5,13 @@
 //!
 //! * `illuminants`: names; `reflectances`, `emissions`: tables; `lines`: `[centre, width]` in nm;
 //! * `blackbodies`: temperatures in K, `wavelengths_nm` to evaluate them at;
-//! * `transfer`: components to encode and to decode;
 //! * `reflectance_rgb`, `emission_rgb`: linear sRGB colours to upsample;
-//! * `realisable_rgb`: linear colours to look for a reflectance of, in every space.
+//! * `realisable_rgb`: linear colours to look for a reflectance of, in seven spaces.
 
 use abbe::color::{self, Observer, RgbSpace, illuminant, upsample};
 use abbe::spectrum::{PiecewiseLinear, Spectrum};
 use abbe::{Error, ErrorKind, Result};
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use serde_json::{Value, json};
 use std::io::Read;
 
@@ -55,9 +54,6 @@ fn answer(text: &str) -> Result<Value> {
         "line_xyz": lines.iter().map(xyz).collect::<Vec<_>>(),
         "blackbodies": blackbodies(&request)?,
         "blackbody_xyz": bodies.iter().map(xyz).collect::<Vec<_>>(),
-        "spaces": RgbSpace::all().iter().map(space).collect::<Vec<_>>(),
-        "encoded": numbers(&request["transfer"])?.into_iter().map(color::srgb_encode).collect::<Vec<_>>(),
-        "decoded": numbers(&request["transfer"])?.into_iter().map(color::srgb_decode).collect::<Vec<_>>(),
         "reflectance_spectra": upsampled(&request, "reflectance_rgb", upsample::reflectance)?,
         "realisable": realisable(&request)?,
         "emission_spectra": upsampled(&request, "emission_rgb", upsample::emission)?,
@@ -73,18 +69,6 @@ fn blackbodies(request: &Value) -> Result<Vec<Vec<f64>>> {
     numbers(&request["blackbodies"])?.into_iter().map(radiances).collect()
 }
 
-fn space(space: &RgbSpace) -> Value {
-    // Rows as printed in a book; glam keeps columns.
-    let rows = |matrix: DMat3| matrix.transpose().to_cols_array_2d();
-    json!({
-        "name": space.name,
-        "primaries": space.primaries,
-        "white": space.white,
-        "xyz_from_rgb": rows(space.xyz_from_rgb),
-        "rgb_from_xyz": rows(space.rgb_from_xyz),
-    })
-}
-
 /// The upsampled spectra at 360, 361, …, 830 nm.
 fn upsampled(
     request: &Value,
@@ -98,13 +82,17 @@ fn upsampled(
     list(request, key)?.iter().map(spectrum).collect()
 }
 
+/// Spaces that colours are looked for in.
+const SPACES: [&str; 7] = ["srgb", "display-p3", "rec2020", "adobe-rgb", "acescg", "aces2065-1", "prophoto-rgb"];
+
 /// By space: whether each colour has a reflectance.
 fn realisable(request: &Value) -> Result<Value> {
     let colors = list(request, "realisable_rgb")?.iter().map(rgb).collect::<Result<Vec<_>>>()?;
     let in_space = |space: &RgbSpace| -> Vec<bool> {
         colors.iter().map(|&color| upsample::reflectance(color, space).is_ok()).collect()
     };
-    Ok(RgbSpace::all().iter().map(|space| (space.name.to_owned(), json!(in_space(space)))).collect())
+    let found = |name| RgbSpace::by_name(name).map(|space| (name.to_owned(), json!(in_space(space))));
+    SPACES.into_iter().map(found).collect()
 }
 
 fn rgb(value: &Value) -> Result<[f64; 3]> {

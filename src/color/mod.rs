@@ -21,9 +21,11 @@ pub mod space;
 mod table;
 pub mod temperature;
 pub mod thermal;
+pub mod transfer;
 pub mod upsample;
 mod xyz;
 
 pub use observer::Observer;
-pub use rgb::{RgbSpace, srgb_decode, srgb_encode};
+pub use rgb::{EncodedRgb, LinearRgb, RgbSpace};
+pub use transfer::{Transfer, srgb_decode, srgb_encode};
 pub use xyz::{chromaticity, normalized_to_unit_luminance, xyz_from_xy, xyz_of_emission, xyz_of_reflectance};
