@@ -1,10 +1,10 @@
 //! The colour of a spectrum for an observer, under a light, in an RGB space.
 
 use super::light::{Lamp, LightFacts};
-use crate::color::adaptation::bradford;
+use crate::color::adaptation::ConeTransform;
 use crate::color::chroma::{Dominant, dominant_wavelength};
 use crate::color::space::lab_from_xyz;
-use crate::color::{Observer, RgbSpace, chromaticity, srgb_encode, xyz_of_emission, xyz_of_reflectance};
+use crate::color::{LinearRgb, Observer, RgbSpace, chromaticity, xyz_of_emission, xyz_of_reflectance};
 use crate::io::spectrum_file::Quantity;
 use crate::spectrum::{PiecewiseLinear, Spectrum};
 use glam::{DMat3, DVec3};
@@ -18,6 +18,8 @@ pub struct Viewing {
     pub observer: &'static Observer,
     /// Space of RGB values.
     pub space: &'static RgbSpace,
+    /// How the lamp's white becomes the space's, if it does.
+    pub adaptation: Option<ConeTransform>,
     /// The light on a reflectance; for an emission the white it is seen against.
     pub lamp: Lamp,
     /// The lamp's colour, Y = 1.
@@ -55,18 +57,22 @@ pub struct Measurement {
 
 impl Viewing {
     /// Gathers what follows from the lamp.
-    pub fn new(quantity: Quantity, observer: &'static Observer, space: &'static RgbSpace, lamp: Lamp) -> Self {
+    pub fn new(
+        quantity: Quantity,
+        observer: &'static Observer,
+        space: &'static RgbSpace,
+        adaptation: Option<ConeTransform>,
+        lamp: Lamp,
+    ) -> Self {
         let white_xyz = xyz_of_reflectance(&Spectrum::Constant(1.0), &lamp.spectrum, observer);
         let lamp_facts = LightFacts::of(&lamp.spectrum);
-        Self { quantity, observer, space, lamp, white_xyz, lamp_facts }
+        Self { quantity, observer, space, adaptation, lamp, white_xyz, lamp_facts }
     }
 
-    /// XYZ to linear RGB of a space: from the lamp's white to the space's for surfaces, as they are for lights.
+    /// XYZ to linear RGB of a space.
     fn rgb_from_xyz(&self, space: &RgbSpace) -> DMat3 {
-        match self.quantity {
-            Quantity::Emission => space.rgb_from_xyz,
-            _ => space.rgb_from_xyz * bradford(self.white_xyz, space.white_xyz()),
-        }
+        let adapted = self.adaptation.map_or(DMat3::IDENTITY, |a| a.adaptation(self.white_xyz, space.white_xyz()));
+        space.rgb_from_xyz * adapted
     }
 
     /// The colour of a spectrum.
@@ -87,7 +93,7 @@ impl Viewing {
             shown_scale,
             lab: lab_from_xyz(xyz * shown_scale, self.white_xyz),
             linear,
-            encoded: shown.map(srgb_encode),
+            encoded: self.space.encode(LinearRgb(shown)).0,
             in_gamut: is_in_gamut(shown),
             rgb8: bytes(self.space, shown),
             srgb8: bytes(RgbSpace::srgb(), self.rgb_from_xyz(RgbSpace::srgb()) * xyz * shown_scale),
@@ -109,6 +115,6 @@ fn is_in_gamut(linear: DVec3) -> bool {
 }
 
 fn bytes(space: &RgbSpace, linear: DVec3) -> [u8; 3] {
-    let _ = space;
-    linear.to_array().map(|c| (255.0 * srgb_encode(c.clamp(0.0, 1.0))).round() as u8)
+    let inside = linear.clamp(DVec3::ZERO, DVec3::ONE);
+    space.encode(LinearRgb(inside)).to_array().map(|code| (255.0 * code).round() as u8)
 }

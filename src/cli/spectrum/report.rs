@@ -5,6 +5,7 @@ use super::light::LightFacts;
 use super::measure::{Measurement, Viewing};
 use crate::cli::plot::{Curve, Plot, hex};
 use crate::cli::swatch;
+use crate::color::adaptation::ConeTransform;
 use crate::color::chroma::Dominant;
 use crate::color::chromaticity;
 use crate::io::spectrum_file::Quantity;
@@ -142,6 +143,7 @@ pub fn json(file: &Path, viewing: &Viewing, measured: &[Measured]) -> String {
         "as": quantity_name(viewing.quantity),
         "observer": viewing.observer.name(),
         "space": viewing.space.name,
+        "adaptation": viewing.adaptation.map_or("none", ConeTransform::name),
         "illuminant": light,
         "spectra": spectra,
     });
