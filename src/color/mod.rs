@@ -16,6 +16,7 @@ pub mod integration;
 pub mod lightness;
 mod observer;
 mod rgb;
+mod root;
 mod smoothest;
 pub mod space;
 mod table;

@@ -65,6 +65,11 @@ static IPT: LazyLock<PowerSpace> = LazyLock::new(|| {
     PowerSpace::new(HPE_D65, 0.43, [[0.4, 0.4, 0.2], [4.455, -4.851, 0.396], [0.8056, 0.3572, -1.1628]])
 });
 
+/// The matrices of IPT, XYZ to cones and compressed cones to I, P, T.
+pub(super) fn ipt_matrices() -> [DMat3; 2] {
+    [IPT.cones_from_xyz, IPT.opponent_from_compressed]
+}
+
 static IPT_RAGOO2021: LazyLock<PowerSpace> = LazyLock::new(|| {
     PowerSpace::new(
         [[0.4321, 0.6906, -0.0930], [-0.1793, 1.1458, 0.0226], [0.0631, 0.1532, 0.7226]],
