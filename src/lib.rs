@@ -81,12 +81,17 @@
 //! * `[CIE109]` CIE 109-1994, A method of predicting corresponding colours under different chromatic and illuminance
 //!   adaptations.
 //! * `[CIE15]` CIE 015:2018, Colorimetry, 4th edition.
+//! * `[CIE159]` CIE 159:2004, A colour appearance model for colour management systems: CIECAM02.
+//! * `[CIE167]` CIE 167:2005, Recommended practice for tabulating spectral data for use in colour computations.
 //! * `[CIE170-2]` CIE 170-2:2015, Fundamental chromaticity diagram with physiological axes, part 2.
+//! * `[CIE248]` CIE 248:2022, The CIE 2016 colour appearance model for colour management systems: CIECAM16.
 //! * `[CSS4]` W3C, CSS Color Module Level 4, section 13.2, gamut mapping.
 //! * `[Canon2020]` Canon, Canon Log gamma curves, version 1.2, 2020.
 //! * `[DCI2012]` Digital Cinema Initiatives, Digital cinema system specification 1.2, 2012; SMPTE RP 431-2.
 //! * `[DJI2017]` DJI, White paper on D-Log and D-Gamut, 2017.
 //! * `[Duff2017]` T. Duff et al., Building an orthonormal basis, revisited, JCGT 6(1), 2017.
+//! * `[E2022]` ASTM E2022, Standard practice for calculation of weighting factors for tristimulus integration, 2016.
+//! * `[E308]` ASTM E308, Standard practice for computing the colors of objects by using the CIE system, 2015.
 //! * `[ECI2007]` European Color Initiative, ECI RGB v2, 2007.
 //! * `[Fairchild1991]` M. D. Fairchild, Formulation and testing of an incomplete-chromatic-adaptation model, Color Res.
 //!   Appl. 16, 1991.
@@ -98,13 +103,22 @@
 //! * `[Haines2019]` E. Haines et al., Precision improvements for ray/sphere intersection, Ray Tracing Gems 7, 2019.
 //! * `[Harris1978]` F. J. Harris, On the use of windows for harmonic analysis with the DFT, Proc. IEEE 66(1), 1978.
 //! * `[Heitz2019]` E. Heitz, A low-distortion map between triangle and square, 2019.
+//! * `[Hellwig2022]` L. Hellwig and M. D. Fairchild, Brightness, lightness, colorfulness, and chroma in CIECAM02 and
+//!   CAM16, Color Res. Appl. 47, 2022.
+//! * `[Hellwig2022a]` L. Hellwig et al., Extending CIECAM02 and CAM16 for the Helmholtz–Kohlrausch effect, Color Res.
+//!   Appl. 47, 2022.
+//! * `[Hernandez1999]` J. Hernández-Andrés et al., Calculating correlated color temperatures across the entire gamut of
+//!   daylight and skylight chromaticities, Appl. Opt. 38, 1999.
 //! * `[Higham2002]` N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
 //! * `[IEC61966]` IEC 61966-2-1, Default RGB colour space – sRGB, 1999.
 //! * `[ISO7944]` ISO 7944, Optics and optical instruments – Reference wavelengths, 1998.
 //! * `[Ize2013]` T. Ize, Robust BVH ray traversal, JCGT 2(2), 2013.
 //! * `[JoeKuo2008]` S. Joe and F. Y. Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J.
 //!   Sci. Comput. 30(5), 2008.
+//! * `[Kang2002]` B. Kang et al., Design of advanced color temperature control system for HDTV applications, J. Korean
+//!   Phys. Soc. 41, 2002.
 //! * `[Kodak1995]` Kodak, Conversion of 10-bit log film data to 8-bit linear or video data, Cineon, 1995.
+//! * `[Krystek1985]` M. Krystek, An algorithm to calculate correlated colour temperature, Color Res. Appl. 10, 1985.
 //! * `[LaineKarras2011]` S. Laine and T. Karras, Stratified sampling for stochastic transparency, CGF 30(4), 2011.
 //! * `[Lam1985]` K. M. Lam, Metamerism and colour constancy, PhD thesis, Bradford, 1985.
 //! * `[Leica2022]` Leica, L-Log reference manual 1.6, 2022.
@@ -114,10 +128,14 @@
 //! * `[Lindbloom2017]` B. J. Lindbloom, RGB working space information, 2017.
 //! * `[Luo1998]` M. R. Luo and R. W. G. Hunt, A chromatic adaptation transform and a colour inconstancy index, Color Res.
 //!   Appl. 23, 1998.
+//! * `[Luo2006]` M. R. Luo et al., Uniform colour spaces based on CIECAM02, Color Res. Appl. 31, 2006.
+//! * `[McCamy1992]` C. S. McCamy, Correlated color temperature as an explicit function of chromaticity coordinates, Color
+//!   Res. Appl. 17, 1992.
 //! * `[Mitchell1990]` D. P. Mitchell, Robust ray intersection with interval arithmetic, Graphics Interface, 1990.
 //! * `[Moore2009]` R. E. Moore et al., Introduction to Interval Analysis, 2009.
 //! * `[Moroney2002]` N. Moroney et al., The CIECAM02 color appearance model, CIC 10, 2002.
 //! * `[Nikon2018]` Nikon, N-Log specification document 1.0, 2018.
+//! * `[Ohno2005]` Y. Ohno, Spectral design considerations for white LED color rendering, Opt. Eng. 44, 2005.
 //! * `[Ohno2014]` Y. Ohno, Practical use and calculation of CCT and Duv, LEUKOS 10(1), 2014.
 //! * `[Ottosson2020]` B. Ottosson, A perceptual color space for image processing, 2020.
 //! * `[PBRT4]` M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, 4th edition, 2023.
@@ -128,10 +146,15 @@
 //! * `[Quilez2013]` I. Quilez, Smooth minimum, 2013.
 //! * `[RED2017]` RED Digital Cinema, White paper on REDWideGamutRGB and Log3G10, 2017.
 //! * `[Reinhard2002]` E. Reinhard et al., Photographic tone reproduction for digital images, SIGGRAPH, 2002.
+//! * `[Robertson1968]` A. R. Robertson, Computation of correlated color temperature and distribution temperature, J. Opt.
+//!   Soc. Am. 58, 1968.
 //! * `[Rodrigues1840]` O. Rodrigues, Des lois géométriques qui régissent les déplacements d'un système solide, 1840.
 //! * `[SI2019]` BIPM, The International System of Units, 9th edition, 2019.
 //! * `[SMPTE240M]` SMPTE 240M, 1125-line high-definition production systems, signal parameters, 1999.
 //! * `[ST2084]` SMPTE ST 2084, High dynamic range electro-optical transfer function of mastering reference displays, 2014.
+//! * `[Safdar2017]` M. Safdar et al., Perceptually uniform color space for image signals, Opt. Express 25, 2017.
+//! * `[Safdar2021]` M. Safdar et al., ZCAM, a colour appearance model based on a high dynamic range uniform colour
+//!   space, Opt. Express 29, 2021.
 //! * `[Schoen1970]` A. H. Schoen, Infinite periodic minimal surfaces without self-intersections, NASA TN D-5541, 1970.
 //! * `[ShirleyChiu1997]` P. Shirley and K. Chiu, A low distortion map between disk and square, JGT 2(3), 1997.
 //! * `[Sony2016]` Sony, S-Log white paper 2012; Technical summary for S-Gamut3.Cine/S-Log3 and S-Gamut3/S-Log3, 2016.
@@ -150,7 +173,8 @@
 //! * `[Wilkie2014]` A. Wilkie et al., Hero wavelength spectral sampling, CGF 33(4), 2014.
 //! * `[Woop2013]` S. Woop, C. Benthin, I. Wald, Watertight ray/triangle intersection, JCGT 2(1), 2013.
 //! * `[Ylitie2017]` H. Ylitie et al., Efficient incoherent ray traversal on GPUs through compressed wide BVHs, HPG, 2017.
-//! * `[Zhai2018]` Q. Zhai and M. R. Luo, Study of chromatic adaptation via neutral white matches, Opt. Express 26, 2018.
+//! * `[Zhai2018]` Q. Zhai and M. R. Luo, Study of chromatic adaptation via neutral white matches, Opt. Express 26,
+//!   2018.
 
 pub mod bsdf;
 pub mod cli;

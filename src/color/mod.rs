@@ -9,16 +9,26 @@
 //! Tables come from data/, where each file names its source, edition and licence.
 
 pub mod adaptation;
+pub mod appearance;
 pub mod chroma;
 pub mod difference;
 pub mod illuminant;
 pub mod integration;
 pub mod lightness;
+pub mod luminous;
+pub mod astm_e308;
+pub mod daylight;
+pub mod illuminant;
+pub mod integration;
+pub mod led;
+pub mod measured;
 mod observer;
+pub mod quality;
 mod rgb;
 mod root;
 mod smoothest;
 pub mod space;
+pub mod sums;
 mod table;
 pub mod temperature;
 pub mod thermal;

@@ -4,6 +4,7 @@
 
 mod function;
 mod piecewise_linear;
+pub mod resample;
 mod sampled;
 mod table;
 mod wavelengths;

@@ -2,8 +2,12 @@
 //!
 //! [`correlated`] follows the definition to rounding. The published approximations are there by name to compare with.
 
+mod approximation;
 mod locus;
+pub mod ohno;
+pub mod robertson;
 
+pub use approximation::Approximation;
 pub use locus::PlanckianLocus;
 
 use super::thermal::RadiationConstants;
@@ -13,18 +17,16 @@ use glam::DVec3;
 /// A colour temperature and the distance from the Planckian locus.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Correlated {
-    /// Temperature of the nearest Planckian radiator, K, by the exact constants of the SI \[SI2019\].
+    /// Temperature of the nearest Planckian radiator, K; from [`correlated`] by the exact constants of the SI \[SI2019\].
     pub kelvin: f64,
     /// Distance from it in CIE 1960 u, v; positive above the locus, towards green \[Ohno2014\].
     pub duv: f64,
 }
 
-impl Correlated {
-    /// The temperature on the scale of 1990 (c₂ = 1.4388·10⁻² m·K), in which the CIE states colour temperatures: larger by
-    /// a factor of 1.000016.
-    pub fn kelvin_its_90(self) -> f64 {
-        self.kelvin * (RadiationConstants::ITS_90.c2 / RadiationConstants::SI_2019.c2)
-    }
+/// A temperature in K on the scale of 1990 (c₂ = 1.4388·10⁻² m·K), in which the CIE states colour temperatures, from one by
+/// the exact constants of the SI: larger by a factor of 1.000016.
+pub fn its_90_from_si(kelvin: f64) -> f64 {
+    kelvin * (RadiationConstants::ITS_90.c2 / RadiationConstants::SI_2019.c2)
 }
 
 /// Correlated colour temperature of CIE 1960 u, v for the CIE 1931 observer, by the definition
@@ -33,7 +35,7 @@ impl Correlated {
 /// ```
 /// use abbe::color::{temperature, xyz_from_xy};
 /// let d65 = temperature::correlated(temperature::uv_from_xyz(xyz_from_xy([0.31271, 0.32902])))?;
-/// assert!((d65.kelvin_its_90() - 6504.0).abs() < 2.0 && (d65.duv - 0.0032).abs() < 1e-4);
+/// assert!((temperature::its_90_from_si(d65.kelvin) - 6504.0).abs() < 2.0 && (d65.duv - 0.0032).abs() < 1e-4);
 /// # Ok::<(), abbe::Error>(())
 /// ```
 ///
