@@ -8,6 +8,7 @@ pub mod render;
 pub mod scene;
 pub mod spectrum;
 mod swatch;
+pub mod upsample;
 
 use crate::{Error, ErrorKind, Result};
 use clap::{CommandFactory, Parser, Subcommand};
@@ -43,8 +44,8 @@ enum Command {
     Bench(NotYet),
     /// Print the colour of spectra from a file
     Spectrum(Box<spectrum::SpectrumArgs>),
-    /// Spectrum of a colour (not yet)
-    Upsample(NotYet),
+    /// Make a spectrum of an RGB colour
+    Upsample(Box<upsample::UpsampleArgs>),
     /// Print completions for a shell
     Completions(completions::CompletionsArgs),
 }
@@ -64,7 +65,10 @@ pub fn main() -> ExitCode {
         );
         return ExitCode::FAILURE;
     }
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return refuse(&error),
+    };
     match run(&cli.command) {
         Ok(code) => code,
         Err(error) => {
@@ -73,6 +77,32 @@ pub fn main() -> ExitCode {
             ExitCode::from(error.kind.exit_code())
         }
     }
+}
+
+/// Help and version are data; anything else is a usage error, told in one line.
+fn refuse(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() || error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        // If the stream is closed there is nobody to tell.
+        let _ = error.print();
+    } else {
+        let _ = writeln!(std::io::stderr(), "{}", one_line(&error.to_string()));
+    }
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
+
+/// The message of a parser's error without its usage and advice to ask for help.
+fn one_line(text: &str) -> String {
+    // Lists that are longer than this do not help: the nearest name does.
+    const LONGEST_LIST: usize = 240;
+    let lines =
+        text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"));
+    let mut message = String::new();
+    for line in lines.filter(|line| !line.is_empty() && !(line.starts_with('[') && line.len() > LONGEST_LIST)) {
+        let joint = if line.starts_with(['[', 't']) { "; " } else { " " };
+        message += if message.is_empty() { "" } else { joint };
+        message += line.strip_prefix("error: ").unwrap_or(line);
+    }
+    message
 }
 
 fn run(command: &Command) -> Result<ExitCode> {
@@ -86,7 +116,7 @@ fn run(command: &Command) -> Result<ExitCode> {
         Command::Compare(args) => not_yet("compare", args),
         Command::Bench(args) => not_yet("bench", args),
         Command::Spectrum(args) => done(spectrum::run(args)),
-        Command::Upsample(args) => not_yet("upsample", args),
+        Command::Upsample(args) => done(upsample::run(args)),
         Command::Completions(args) => done(completions::run(args, Cli::command())),
     }
 }

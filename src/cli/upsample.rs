@@ -2,12 +2,11 @@
 
 use super::spectrum::{self, Kind};
 use super::{plot, usage, write_data};
-use crate::color::{RgbSpace, upsample};
+use crate::color::{EncodedRgb, LinearRgb, RgbSpace, upsample};
 use crate::io::output::write_atomically;
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, PiecewiseLinear, Spectrum};
-use crate::{Error, ErrorKind, Result, VERSION};
+use crate::{Result, VERSION};
 use clap::builder::PossibleValuesParser;
-use glam::DVec3;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 
@@ -156,4 +155,53 @@ struct Made<'a> {
     space: &'static RgbSpace,
     color: Color,
     table: PiecewiseLinear,
+}
+
+impl Made<'_> {
+    fn what(&self) -> &'static str {
+        match self.args.kind {
+            Kind::Emission => "emission",
+            Kind::Reflectance => "reflectance",
+            Kind::Transmittance => "transmittance",
+        }
+    }
+
+    fn title(&self) -> String {
+        let [r, g, b] = self.color.linear.to_array();
+        format!("{} of linear {} {r:.4} {g:.4} {b:.4}", self.what(), self.space.name)
+    }
+
+    /// One line a knot, under names that `abbe spectrum` understands.
+    fn csv(&self) -> String {
+        let [r, g, b] = self.color.linear.to_array();
+        let mut text = format!("# {} of linear {} {r} {g} {b}, by {VERSION}\n", self.what(), self.space.name);
+        text += &format!("wavelength_nm,{}\n", self.what());
+        self.table.knots().for_each(|(nm, value)| text += &format!("{nm},{value}\n"));
+        text
+    }
+
+    fn json(&self) -> String {
+        let back = self.back();
+        let wanted = self.color.linear.to_array();
+        let error = wanted.iter().zip(back).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let value = json!({
+            "space": self.space.name,
+            "as": self.what(),
+            "rgb_linear": wanted,
+            "rgb_encoded": self.color.encoded.to_array(),
+            "wavelengths_nm": self.table.lambdas_nm(),
+            "values": self.table.values(),
+            "round_trip": { "rgb_linear": back, "largest_error": error },
+        });
+        format!("{value}\n")
+    }
+
+    /// The colour of the spectrum, which is to be the one that was asked for.
+    fn back(&self) -> [f64; 3] {
+        let spectrum = Spectrum::PiecewiseLinear(self.table.clone());
+        match self.args.kind {
+            Kind::Emission => upsample::rgb_of_emission(&spectrum, self.space),
+            Kind::Reflectance | Kind::Transmittance => upsample::rgb_of_reflectance(&spectrum, self.space),
+        }
+    }
 }

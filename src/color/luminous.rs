@@ -14,8 +14,12 @@ const PHOTOPIC_LM_PER_W: f64 = 683.0;
 const SCOTOPIC_LM_PER_W: f64 = 1700.0;
 
 /// Names of those that are an observer's ȳ, with the observer.
-const OF_OBSERVERS: [(&str, &str); 4] =
-    [("photopic-1924", "1931-2"), ("photopic-1964-10", "1964-10"), ("photopic-2008-2", "2015-2"), ("photopic-2008-10", "2015-10")];
+const OF_OBSERVERS: [(&str, &str); 4] = [
+    ("photopic-1924", "1931-2"),
+    ("photopic-1964-10", "1964-10"),
+    ("photopic-2008-2", "2015-2"),
+    ("photopic-2008-10", "2015-10"),
+];
 
 static ALL: LazyLock<Vec<LuminousEfficiency>> = LazyLock::new(|| {
     let text = include_str!("../../data/quality/luminous_efficiency.csv");
@@ -203,7 +207,8 @@ mod tests {
     #[test]
     fn a_photopic_flux_is_the_luminance_of_colorimetry() {
         let observer = Observer::cie_1931_2deg();
-        for light in [Spectrum::blackbody(2856.0).unwrap(), Spectrum::Constant(0.3), illuminant::by_name("E").unwrap()] {
+        for light in [Spectrum::blackbody(2856.0).unwrap(), Spectrum::Constant(0.3), illuminant::by_name("E").unwrap()]
+        {
             let y = xyz_of_emission(&light, observer).y;
             assert_relative_eq!(luminous_flux(&light), 683.0 * observer.y_integral() * y, max_relative = 1e-13);
         }

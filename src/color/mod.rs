@@ -10,17 +10,15 @@
 
 pub mod adaptation;
 pub mod appearance;
+pub mod astm_e308;
 pub mod chroma;
+pub mod daylight;
 pub mod difference;
 pub mod illuminant;
 pub mod integration;
+pub mod led;
 pub mod lightness;
 pub mod luminous;
-pub mod astm_e308;
-pub mod daylight;
-pub mod illuminant;
-pub mod integration;
-pub mod led;
 pub mod measured;
 mod observer;
 pub mod quality;

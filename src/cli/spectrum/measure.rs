@@ -9,6 +9,28 @@ use crate::io::spectrum_file::Quantity;
 use crate::spectrum::{PiecewiseLinear, Spectrum};
 use glam::{DMat3, DVec3};
 
+/// A chromatic adaptation or none, and its name.
+pub type Adaptation = (&'static str, Option<ConeTransform>);
+
+/// What reflectances and transmittances are adapted by unless something else is asked for.
+pub const BRADFORD: Adaptation = ("bradford", Some(ConeTransform::Bradford));
+/// No adaptation.
+pub const NO_ADAPTATION: Adaptation = ("none", None);
+
+/// The names of adaptations.
+pub fn adaptation_names() -> impl Iterator<Item = &'static str> {
+    std::iter::once(NO_ADAPTATION.0).chain(ConeTransform::names())
+}
+
+/// An adaptation by its name, or the usual one for a quantity.
+pub fn adaptation(name: Option<&str>, quantity: Quantity) -> Adaptation {
+    match name.and_then(|name| ConeTransform::names().find(|known| *known == name)) {
+        Some(known) => (known, ConeTransform::by_name(known).ok()),
+        None if name.is_some() || quantity == Quantity::Emission => NO_ADAPTATION,
+        None => BRADFORD,
+    }
+}
+
 /// How spectra are looked at.
 #[derive(Debug)]
 pub struct Viewing {
@@ -18,8 +40,8 @@ pub struct Viewing {
     pub observer: &'static Observer,
     /// Space of RGB values.
     pub space: &'static RgbSpace,
-    /// How the lamp's white becomes the space's, if it does.
-    pub adaptation: Option<ConeTransform>,
+    /// How the lamp's white becomes the space's, if it does, with its name.
+    pub adaptation: Adaptation,
     /// The light on a reflectance; for an emission the white it is seen against.
     pub lamp: Lamp,
     /// The lamp's colour, Y = 1.
@@ -61,7 +83,7 @@ impl Viewing {
         quantity: Quantity,
         observer: &'static Observer,
         space: &'static RgbSpace,
-        adaptation: Option<ConeTransform>,
+        adaptation: Adaptation,
         lamp: Lamp,
     ) -> Self {
         let white_xyz = xyz_of_reflectance(&Spectrum::Constant(1.0), &lamp.spectrum, observer);
@@ -71,7 +93,7 @@ impl Viewing {
 
     /// XYZ to linear RGB of a space.
     fn rgb_from_xyz(&self, space: &RgbSpace) -> DMat3 {
-        let adapted = self.adaptation.map_or(DMat3::IDENTITY, |a| a.adaptation(self.white_xyz, space.white_xyz()));
+        let adapted = self.adaptation.1.map_or(DMat3::IDENTITY, |a| a.adaptation(self.white_xyz, space.white_xyz()));
         space.rgb_from_xyz * adapted
     }
 

@@ -5,7 +5,6 @@ mod measure;
 mod report;
 
 use super::{plot, swatch, usage, write_data};
-use crate::color::adaptation::ConeTransform;
 use crate::color::{Observer, RgbSpace};
 use crate::io::output::write_atomically;
 use crate::io::spectrum_file::{self, Finding, NamedSpectrum, Quantity, SpectrumFile};
@@ -13,11 +12,8 @@ use crate::spectrum::PiecewiseLinear;
 use crate::{Error, ErrorKind, Result};
 use clap::builder::PossibleValuesParser;
 use light::Lamp;
-use measure::{Measurement, Viewing};
+use measure::{Measurement, Viewing, adaptation, adaptation_names};
 use std::path::{Path, PathBuf};
-
-/// The name of no chromatic adaptation.
-const NO_ADAPTATION: &str = "none";
 
 /// Arguments of `abbe spectrum`.
 #[derive(Debug, Clone, clap::Args)]
@@ -176,18 +172,8 @@ fn viewing(args: &SpectrumArgs, input: &Input) -> Result<Viewing> {
     let implied = if args.illuminant.is_some() { Quantity::Reflectance } else { Quantity::Emission };
     let quantity = args.kind.map(Quantity::from).or(input.quantity).unwrap_or(implied);
     let lamp = Lamp::named(args.illuminant.as_deref().unwrap_or("D65"))?;
-    let adaptation = match args.adaptation.as_deref() {
-        Some(NO_ADAPTATION) => None,
-        Some(name) => Some(ConeTransform::by_name(name)?),
-        None => (quantity != Quantity::Emission).then_some(ConeTransform::Bradford),
-    };
-    Ok(Viewing::new(
-        quantity,
-        Observer::by_name(&args.observer)?,
-        RgbSpace::by_name(&args.space)?,
-        adaptation,
-        lamp,
-    ))
+    let adaptation = adaptation(args.adaptation.as_deref(), quantity);
+    Ok(Viewing::new(quantity, Observer::by_name(&args.observer)?, RgbSpace::by_name(&args.space)?, adaptation, lamp))
 }
 
 /// A spectrum with its colour and what is doubtful about it.
@@ -233,17 +219,18 @@ fn warnings(input: &Input, measured: &[Measured]) -> Vec<String> {
     told.into_iter().map(line).collect()
 }
 
-fn adaptation_names() -> impl Iterator<Item = &'static str> {
-    std::iter::once(NO_ADAPTATION).chain(ConeTransform::names())
-}
-
 /// The drawing of one spectrum seen by the CIE 1931 observer, for other commands.
 ///
 /// # Errors
 /// None but those of looking up D65.
-pub(super) fn drawing(name: &str, table: PiecewiseLinear, quantity: Quantity, space: &'static RgbSpace) -> Result<String> {
-    let adaptation = (quantity != Quantity::Emission).then_some(ConeTransform::Bradford);
-    let viewing = Viewing::new(quantity, Observer::cie_1931_2deg(), space, adaptation, Lamp::named("D65")?);
+pub(super) fn drawing(
+    name: &str,
+    table: PiecewiseLinear,
+    quantity: Quantity,
+    space: &'static RgbSpace,
+) -> Result<String> {
+    let usual = adaptation(None, quantity);
+    let viewing = Viewing::new(quantity, Observer::cie_1931_2deg(), space, usual, Lamp::named("D65")?);
     let spectrum = NamedSpectrum { name: name.to_owned(), table };
     let measurement = viewing.measure(&spectrum.table);
     let measured = [Measured { spectrum: &spectrum, measurement, findings: Vec::new() }];

@@ -1,11 +1,10 @@
 //! What `abbe spectrum` prints and draws.
 
 use super::Measured;
-use super::light::LightFacts;
+use super::light::{LightFacts, Rendering};
 use super::measure::{Measurement, Viewing};
 use crate::cli::plot::{Curve, Plot, hex};
 use crate::cli::swatch;
-use crate::color::adaptation::ConeTransform;
 use crate::color::chroma::Dominant;
 use crate::color::chromaticity;
 use crate::io::spectrum_file::Quantity;
@@ -52,6 +51,9 @@ fn block(viewing: &Viewing, one: &Measured, with_swatch: bool) -> String {
     rows.push(("dominant", m.dominant.map_or("none (no hue)".to_owned(), |d| dominant(&d))));
     if let Some(light) = &m.light {
         rows.extend(light_rows(light));
+        let efficacy = light.efficacy_lm_per_w.map_or(String::new(), |e| format!("; {} lm/W", significant(e, 5)));
+        let luminance = significant(light.luminance, 6);
+        rows.push(("luminance", format!("{luminance} cd/m² if the values are W/(m² sr nm){efficacy}")));
     } else {
         let [x, y] = chromaticity(viewing.white_xyz);
         rows.push(("light", format!("{}: xy {x:.6}  {y:.6}", viewing.lamp.name)));
@@ -78,7 +80,13 @@ fn light_rows(light: &LightFacts) -> Vec<(&'static str, String)> {
         (_, Some(duv)) => format!("none ({duv} is too far from the Planckian locus)"),
         _ => "none".to_owned(),
     };
-    vec![("CCT", temperature)]
+    let mut rows = vec![("CCT", temperature)];
+    if let Some(rendering) = &light.rendering {
+        let remark = if light.is_white() { "" } else { "  (of little meaning so far from white)" };
+        let Rendering { ra, r, rf, rg } = rendering;
+        rows.push(("rendering", format!("Ra {ra:.2}, R9 {:.2}, Rf {rf:.2}, Rg {rg:.2}{remark}", r[8])));
+    }
+    rows
 }
 
 /// One line a spectrum: what tells colours apart at a glance.
@@ -143,7 +151,7 @@ pub fn json(file: &Path, viewing: &Viewing, measured: &[Measured]) -> String {
         "as": quantity_name(viewing.quantity),
         "observer": viewing.observer.name(),
         "space": viewing.space.name,
-        "adaptation": viewing.adaptation.map_or("none", ConeTransform::name),
+        "adaptation": viewing.adaptation.0,
         "illuminant": light,
         "spectra": spectra,
     });
@@ -153,6 +161,12 @@ pub fn json(file: &Path, viewing: &Viewing, measured: &[Measured]) -> String {
 fn spectrum_json(one: &Measured) -> Value {
     let m: &Measurement = &one.measurement;
     let knots = one.spectrum.table.lambdas_nm();
+    let light = m.light.as_ref().map(|facts| {
+        let mut light = light_json(facts);
+        light["luminance_cd_per_m2"] = json!(facts.luminance);
+        light["efficacy_lm_per_w"] = json!(facts.efficacy_lm_per_w);
+        light
+    });
     let warnings: Vec<Value> = one.findings.iter().map(|f| json!({ "name": f.name, "message": f.message })).collect();
     json!({
         "name": one.spectrum.name,
@@ -172,17 +186,25 @@ fn spectrum_json(one: &Measured) -> Value {
             "excitation_purity": d.excitation_purity,
             "colorimetric_purity": d.colorimetric_purity,
         })),
-        "light": m.light.as_ref().map(light_json),
+        "light": light,
         "warnings": warnings,
     })
 }
 
 fn light_json(light: &LightFacts) -> Value {
-    json!({ "cct_kelvin": light.cct_kelvin, "duv": light.duv })
+    let rendering = light.rendering.as_ref();
+    json!({
+        "cct_kelvin": light.cct_kelvin,
+        "duv": light.duv,
+        "ra": rendering.map(|r| r.ra),
+        "r": rendering.map(|r| r.r),
+        "rf": rendering.map(|r| r.rf),
+        "rg": rendering.map(|r| r.rg),
+    })
 }
 
 const CSV_HEAD: &str = "name,X,Y,Z,x,y,L,a,b,R_linear,G_linear,B_linear,shown_scale,R_encoded,G_encoded,B_encoded,hex,\
-    in_gamut,dominant_nm,complementary,excitation_purity,cct_kelvin,duv";
+    in_gamut,dominant_nm,complementary,excitation_purity,cct_kelvin,duv,ra,rf,rg";
 
 /// A line of names, then one line a spectrum with every digit; what there is not is an empty cell.
 pub fn csv(measured: &[Measured]) -> String {
@@ -203,7 +225,9 @@ pub fn csv(measured: &[Measured]) -> String {
         cells.push(m.dominant.map_or(String::new(), |d| d.is_complementary.to_string()));
         cells.push(m.dominant.map_or(String::new(), |d| d.excitation_purity.to_string()));
         let light = m.light.as_ref();
-        let facts = [light.and_then(|l| l.cct_kelvin), light.and_then(|l| l.duv)];
+        let rendering = light.and_then(|l| l.rendering.as_ref());
+        let [ra, rf, rg] = [rendering.map(|r| r.ra), rendering.map(|r| r.rf), rendering.map(|r| r.rg)];
+        let facts = [light.and_then(|l| l.cct_kelvin), light.and_then(|l| l.duv), ra, rf, rg];
         cells.extend(facts.map(|fact| fact.map_or(String::new(), |v| v.to_string())));
         cells.join(",") + "\n"
     });

@@ -18,8 +18,7 @@ const GAMUT_OF_D65: f64 = 8210.0;
 const PREFERENCE_SCALE: f64 = 3.6;
 
 static SAMPLES: LazyLock<[Vec<Vec<f64>>; 2]> = LazyLock::new(|| {
-    let texts =
-        [include_str!("../../../data/quality/cqs_7.4.csv"), include_str!("../../../data/quality/cqs_9.0.csv")];
+    let texts = [include_str!("../../../data/quality/cqs_7.4.csv"), include_str!("../../../data/quality/cqs_9.0.csv")];
     texts.map(|text| {
         reflectances(text, &reference::wide_grid()).expect("data/quality/cqs_*.csv hold reflectances every 5 nm")
     })

@@ -26,7 +26,8 @@ fn check(kelvin: f64) -> Result<()> {
     if kelvin > 0.0 && kelvin <= DAYLIGHT_TO_KELVIN {
         return Ok(());
     }
-    let message = format!("no reference for a colour temperature of {kelvin} K; expected one up to {DAYLIGHT_TO_KELVIN} K");
+    let message =
+        format!("no reference for a colour temperature of {kelvin} K; expected one up to {DAYLIGHT_TO_KELVIN} K");
     Err(Error::new(ErrorKind::OutOfRange, message))
 }
 
@@ -46,7 +47,11 @@ fn daylight(kelvin: f64, grid: &Grid, interpolation: Interpolation) -> Result<Ve
 /// A temperature that is not in (0, 25 000] K.
 pub(super) fn wide_reference(kelvin: f64, grid: &Grid) -> Result<Vec<f64>> {
     check(kelvin)?;
-    if kelvin < DAYLIGHT_FROM_KELVIN { Ok(planckian(kelvin, grid)) } else { daylight(kelvin, grid, Interpolation::Linear) }
+    if kelvin < DAYLIGHT_FROM_KELVIN {
+        Ok(planckian(kelvin, grid))
+    } else {
+        daylight(kelvin, grid, Interpolation::Linear)
+    }
 }
 
 /// The reference of CIE 224: a blackbody up to 4000 K, daylight from 5000 K, and between them a mixture of both at equal

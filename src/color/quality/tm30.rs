@@ -53,7 +53,8 @@ pub fn tm30(light: &Spectrum) -> Result<Tm30> {
     let area = |corner: fn(&HueBin) -> [f64; 2]| polygon_area(&present.iter().map(corner).collect::<Vec<_>>());
     let (seen, expected) = (area(|bin| bin.seen), area(|bin| bin.expected));
     if expected <= 0.0 {
-        let message = format!("a reference at {} K whose gamut has no area; expected colours of all hues", shifts.kelvin);
+        let message =
+            format!("a reference at {} K whose gamut has no area; expected colours of all hues", shifts.kelvin);
         return Err(Error::new(ErrorKind::Degenerate, message));
     }
     let mean = shifts.differences.iter().sum::<f64>() / shifts.differences.len() as f64;
@@ -69,8 +70,7 @@ pub fn tm30(light: &Spectrum) -> Result<Tm30> {
 
 fn hue_bin(shifts: &Shifts, bin: usize) -> Option<HueBin> {
     let width = 360.0 / BINS as f64;
-    let members: Vec<usize> =
-        (0..shifts.hues.len()).filter(|&i| (shifts.hues[i] / width) as usize == bin).collect();
+    let members: Vec<usize> = (0..shifts.hues.len()).filter(|&i| (shifts.hues[i] / width) as usize == bin).collect();
     if members.is_empty() {
         return None;
     }
