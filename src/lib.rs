@@ -80,15 +80,18 @@
 //! * `[Burns2019]` S. A. Burns, Numerical methods for smoothest reflectance reconstruction, Color Res. Appl. 45, 2019.
 //! * `[CIE109]` CIE 109-1994, A method of predicting corresponding colours under different chromatic and illuminance
 //!   adaptations.
+//! * `[CIE13.3]` CIE 13.3:1995, Method of measuring and specifying colour rendering properties of light sources.
 //! * `[CIE15]` CIE 015:2018, Colorimetry, 4th edition.
 //! * `[CIE159]` CIE 159:2004, A colour appearance model for colour management systems: CIECAM02.
 //! * `[CIE167]` CIE 167:2005, Recommended practice for tabulating spectral data for use in colour computations.
 //! * `[CIE170-2]` CIE 170-2:2015, Fundamental chromaticity diagram with physiological axes, part 2.
+//! * `[CIE224]` CIE 224:2017, CIE 2017 colour fidelity index for accurate scientific use.
 //! * `[CIE248]` CIE 248:2022, The CIE 2016 colour appearance model for colour management systems: CIECAM16.
 //! * `[CSS4]` W3C, CSS Color Module Level 4, section 13.2, gamut mapping.
 //! * `[Canon2020]` Canon, Canon Log gamma curves, version 1.2, 2020.
 //! * `[DCI2012]` Digital Cinema Initiatives, Digital cinema system specification 1.2, 2012; SMPTE RP 431-2.
 //! * `[DJI2017]` DJI, White paper on D-Log and D-Gamut, 2017.
+//! * `[Davis2010]` W. Davis and Y. Ohno, Color quality scale, Opt. Eng. 49, 2010.
 //! * `[Duff2017]` T. Duff et al., Building an orthonormal basis, revisited, JCGT 6(1), 2017.
 //! * `[E2022]` ASTM E2022, Standard practice for calculation of weighting factors for tristimulus integration, 2016.
 //! * `[E308]` ASTM E308, Standard practice for computing the colors of objects by using the CIE system, 2015.
@@ -151,6 +154,8 @@
 //! * `[Rodrigues1840]` O. Rodrigues, Des lois géométriques qui régissent les déplacements d'un système solide, 1840.
 //! * `[SI2019]` BIPM, The International System of Units, 9th edition, 2019.
 //! * `[SMPTE240M]` SMPTE 240M, 1125-line high-definition production systems, signal parameters, 1999.
+//! * `[SSI2020]` Academy of Motion Picture Arts and Sciences, Academy spectral similarity index: overview, 2020; SMPTE
+//!   ST 2122.
 //! * `[ST2084]` SMPTE ST 2084, High dynamic range electro-optical transfer function of mastering reference displays, 2014.
 //! * `[Safdar2017]` M. Safdar et al., Perceptually uniform color space for image signals, Opt. Express 25, 2017.
 //! * `[Safdar2021]` M. Safdar et al., ZCAM, a colour appearance model based on a high dynamic range uniform colour
@@ -162,6 +167,7 @@
 //! * `[Steele2014]` G. L. Steele et al., Fast splittable pseudorandom number generators, OOPSLA, 2014.
 //! * `[Susstrunk2000]` S. Süsstrunk et al., Chromatic adaptation performance of different RGB sensors, SPIE 4300, 2000.
 //! * `[TM27]` ANSI/IES TM-27, IES standard format for the electronic transfer of spectral data, 2020.
+//! * `[TM30]` ANSI/IES TM-30-18, IES method for evaluating light source color rendition, 2018.
 //! * `[Tolkowsky1919]` M. Tolkowsky, Diamond Design, 1919.
 //! * `[Turk1994]` G. Turk, The PLY polygon file format, 1994.
 //! * `[Veach1997]` E. Veach, Robust Monte Carlo methods for light transport simulation, PhD thesis, Stanford, 1997.

@@ -3,14 +3,8 @@
 use super::response::{Correlates, Setting};
 use super::{Appearance, ViewingConditions};
 use crate::Result;
+use crate::color::adaptation::ConeTransform;
 use glam::{DMat3, DVec3};
-
-/// Responses of CAT16, in which CAM16 both adapts and compresses \[Li2017\].
-pub(super) const CAT16: DMat3 = DMat3::from_cols(
-    DVec3::new(0.401288, -0.250268, -0.002079),
-    DVec3::new(0.650173, 1.204414, 0.048952),
-    DVec3::new(-0.051461, 0.045854, 0.953127),
-);
 
 /// XYZ to adapted responses of CAT16 (100 for white), and the setting; `neutral` is what a white's response becomes.
 ///
@@ -18,8 +12,9 @@ pub(super) const CAT16: DMat3 = DMat3::from_cols(
 /// As the models'.
 pub(super) fn adapted_response_from_xyz(conditions: &ViewingConditions, neutral: f64) -> Result<(DMat3, Setting)> {
     let setting = Setting::new(conditions)?;
-    let gains = setting.gains(CAT16 * (100.0 * conditions.white_xyz), neutral)?;
-    Ok((DMat3::from_diagonal(gains * 100.0) * CAT16, setting))
+    let cat16 = ConeTransform::Cat16.cone_from_xyz();
+    let gains = setting.gains(cat16 * (100.0 * conditions.white_xyz), neutral)?;
+    Ok((DMat3::from_diagonal(gains * 100.0) * cat16, setting))
 }
 
 /// CAM16 under viewing conditions \[Li2017\]: CIECAM02 with one space for adaptation and compression.

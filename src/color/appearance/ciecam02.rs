@@ -3,14 +3,8 @@
 use super::response::{Correlates, Setting};
 use super::{Appearance, ViewingConditions};
 use crate::Result;
+use crate::color::adaptation::ConeTransform;
 use glam::{DMat3, DVec3};
-
-/// Sharpened responses of CAT02 \[CIE159\].
-pub(super) const CAT02: DMat3 = DMat3::from_cols(
-    DVec3::new(0.7328, -0.7036, 0.0030),
-    DVec3::new(0.4296, 1.6975, 0.0136),
-    DVec3::new(-0.1624, 0.0061, 0.9834),
-);
 
 /// Cone responses of Hunt, Pointer and Estévez, for equal-energy white \[CIE159\].
 const HUNT_POINTER_ESTEVEZ: DMat3 = DMat3::from_cols(
@@ -40,9 +34,10 @@ impl Ciecam02 {
     /// A condition that is not a positive finite number, or a white whose sharpened responses are not all positive.
     pub fn new(conditions: &ViewingConditions) -> Result<Self> {
         let setting = Setting::new(conditions)?;
-        let white = CAT02 * (100.0 * conditions.white_xyz);
+        let cat02 = ConeTransform::Cat02.cone_from_xyz();
+        let white = cat02 * (100.0 * conditions.white_xyz);
         let gains = setting.gains(white, 100.0 * conditions.white_xyz.y)?;
-        let adaptation = CAT02.inverse() * DMat3::from_diagonal(gains) * CAT02;
+        let adaptation = cat02.inverse() * DMat3::from_diagonal(gains) * cat02;
         let cones_from_xyz = HUNT_POINTER_ESTEVEZ * adaptation * 100.0;
         let xyz_from_cones = cones_from_xyz.inverse();
         let white_response = (cones_from_xyz * conditions.white_xyz).map(|x| setting.compress(x));

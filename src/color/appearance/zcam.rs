@@ -1,8 +1,8 @@
 //! ZCAM.
 
-use super::ciecam02::CAT02;
 use super::response::{UniqueHues, degree_of_adaptation, hue_degrees, ratio_or_zero, signed_pow};
 use super::{Appearance, ViewingConditions};
+use crate::color::adaptation::{ConeTransform, zhai2018};
 use crate::color::xyz_from_xy;
 use crate::math::{cos, exp, pow, sin};
 use crate::{Error, ErrorKind, Result};
@@ -157,17 +157,15 @@ fn hue_factor(hue_degrees: f64) -> f64 {
 }
 
 /// XYZ under the white to XYZ under D65 of Y = 1, over the equal-energy illuminant in two steps \[Zhai2018\].
+///
+/// # Errors
+/// A white whose sharpened responses are not all positive.
 fn adaptation_to_d65(conditions: &ViewingConditions) -> Result<DMat3> {
-    let degree = degree_of_adaptation(conditions);
-    let gains = |white_xyz: DVec3| {
-        let white = CAT02 * white_xyz;
-        degree * white_xyz.y * (CAT02 * DVec3::ONE) / white + (1.0 - degree)
-    };
-    let white = CAT02 * conditions.white_xyz;
+    let white = ConeTransform::Cat02.cone_from_xyz() * conditions.white_xyz;
     if !(white.min_element() > 0.0 && white.is_finite()) {
         let message = format!("cone responses {white} of the white; expected positive finite ones");
         return Err(Error::new(ErrorKind::OutOfRange, message).at("white_xyz"));
     }
-    let gains = gains(conditions.white_xyz) / gains(xyz_from_xy([0.3127, 0.3290]));
-    Ok(CAT02.inverse() * DMat3::from_diagonal(gains) * CAT02)
+    let (degree, d65) = (degree_of_adaptation(conditions), xyz_from_xy([0.3127, 0.3290]));
+    Ok(zhai2018(conditions.white_xyz, d65, [degree; 2], DVec3::ONE, ConeTransform::Cat02))
 }
