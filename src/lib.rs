@@ -103,6 +103,7 @@
 //! * `[FilmLight2018]` FilmLight, T-Log and E-Gamut, 2018.
 //! * `[Fujifilm2022]` Fujifilm, F-Log data sheet 1.1 and F-Log2 data sheet 1.0, 2022.
 //! * `[GoPro2016]` GoPro, Protune, 2016.
+//! * `[H273]` ITU-T H.273, Coding-independent code points for video signal type identification, 2021.
 //! * `[Haines2019]` E. Haines et al., Precision improvements for ray/sphere intersection, Ray Tracing Gems 7, 2019.
 //! * `[Harris1978]` F. J. Harris, On the use of windows for harmonic analysis with the DFT, Proc. IEEE 66(1), 1978.
 //! * `[Heitz2019]` E. Heitz, A low-distortion map between triangle and square, 2019.

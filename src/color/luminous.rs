@@ -228,9 +228,10 @@ mod tests {
 
     #[test]
     fn every_function_peaks_at_1_and_is_0_beyond_its_ends() {
+        // Judd's table at 10 nm peaks between two samples.
         for name in LuminousEfficiency::names() {
             let function = LuminousEfficiency::by_name(name).unwrap();
-            assert!((function.curve().max() - 1.0).abs() < 1e-4, "{name}: {}", function.curve().max());
+            assert!((function.curve().max() - 1.0).abs() < 2e-4, "{name}: {}", function.curve().max());
             assert_eq!((function.eval(359.0), function.eval(831.0)), (0.0, 0.0), "{name}");
             assert!(function.efficiency(&Spectrum::Constant(1.0)).unwrap() > 0.2, "{name}");
         }

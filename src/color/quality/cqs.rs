@@ -6,7 +6,7 @@ use crate::color::adaptation::ConeTransform;
 use crate::color::space::{lab_from_xyz, uv_1960_from_xyz};
 use crate::color::{Observer, temperature, xyz_from_xy};
 use crate::spectrum::Spectrum;
-use crate::spectrum::resample::{Extrapolation, Interpolation};
+use crate::spectrum::resample::Extrapolation;
 use crate::{Error, ErrorKind, Result, math};
 use glam::DVec3;
 use std::sync::LazyLock;
@@ -98,7 +98,7 @@ struct Shift {
 /// A light without luminance, or whose colour temperature has no reference: above 25 000 K.
 pub fn cqs(light: &Spectrum, version: CqsVersion) -> Result<Cqs> {
     let grid = reference::wide_grid();
-    let values = sample(light, &grid, Interpolation::Sprague, Extrapolation::Constant)?;
+    let values = sample(light, &grid, Extrapolation::Constant)?;
     let lamp = Lamp::new(&values, &grid, Observer::cie_1931_2deg())?;
     let kelvin = temperature::ohno::correlated(uv_1960_from_xyz(lamp.white))?.kelvin;
     let reference = Lamp::new(&reference::wide_reference(kelvin, &grid)?, &grid, Observer::cie_1931_2deg())?;
@@ -164,4 +164,56 @@ fn temperature_factor(samples: &[Vec<f64>], reference: &Lamp) -> f64 {
     let lab: Vec<DVec3> =
         samples.iter().map(|sample| lab_from_xyz(adaptation * reference.xyz_of(sample), d65)).collect();
     (gamut_area(&lab) / GAMUT_OF_D65).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::illuminant;
+    use crate::color::quality::cri;
+
+    fn lamp_named(name: &str) -> Spectrum {
+        Spectrum::PiecewiseLinear(illuminant::relative_power(name).unwrap())
+    }
+
+    #[test]
+    fn a_lamp_has_the_known_scale() {
+        let found = cqs(&lamp_named("FL2"), CqsVersion::V9_0).unwrap();
+        assert!((found.qa - 64.111_822).abs() < 1e-6, "{found:?}");
+        assert_eq!((found.qp, found.qd), (None, None));
+        let older = cqs(&lamp_named("FL2"), CqsVersion::V7_4).unwrap();
+        assert!(older.qp.is_some() && older.qd.is_some() && (older.qa - 64.774_587).abs() < 1e-6);
+    }
+
+    #[test]
+    fn references_are_perfect_but_candles_of_version_7_4() {
+        for kelvin in [2000.0, 2856.0, 4900.0] {
+            let light = Spectrum::blackbody(kelvin).unwrap();
+            let found = cqs(&light, CqsVersion::V9_0).unwrap();
+            assert!(found.qa > 99.99 && found.qf > 99.99 && found.q.iter().all(|q| *q > 99.9), "{found:?}");
+        }
+        let candle = cqs(&Spectrum::blackbody(1800.0).unwrap(), CqsVersion::V7_4).unwrap();
+        assert!((70.0..98.0).contains(&candle.qa), "{candle:?}");
+    }
+
+    #[test]
+    fn gains_of_chroma_do_not_count() {
+        let diodes = lamp_named("LED-RGB1");
+        let found = cqs(&diodes, CqsVersion::V9_0).unwrap();
+        assert!(found.qa > found.qf && found.qa > cri(&diodes).unwrap().ra + 10.0, "{found:?}");
+        let grey = DVec3::new(50.0, 10.0, 0.0);
+        let gain = shift(DVec3::new(50.0, 13.0, 0.0), grey);
+        assert_eq!((gain.chroma, gain.difference, gain.without_gain), (3.0, 3.0, 0.0));
+        let loss = shift(DVec3::new(54.0, 7.0, 0.0), grey);
+        assert_eq!((loss.chroma, loss.difference, loss.without_gain), (-3.0, 5.0, 5.0));
+    }
+
+    #[test]
+    fn areas_and_names() {
+        let square = [[3.0, 0.0], [0.0, 3.0], [-3.0, 0.0], [0.0, -3.0]].map(|[a, b]| DVec3::new(1.0, a, b));
+        assert_eq!(gamut_area(&square), 18.0);
+        assert_eq!(CqsVersion::by_name("7.4").unwrap(), CqsVersion::V7_4);
+        assert_eq!(CqsVersion::by_name("8").unwrap_err().kind, ErrorKind::UnknownName);
+        assert_eq!(cqs(&Spectrum::Constant(0.0), CqsVersion::V9_0).unwrap_err().kind, ErrorKind::OutOfRange);
+    }
 }

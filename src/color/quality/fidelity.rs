@@ -6,7 +6,7 @@ use crate::color::appearance::{Ciecam02, Surround, UniformSpace, ViewingConditio
 use crate::color::space::uv_1960_from_xyz;
 use crate::color::{Observer, temperature};
 use crate::spectrum::Spectrum;
-use crate::spectrum::resample::{Extrapolation, Grid, Interpolation};
+use crate::spectrum::resample::{Extrapolation, Grid};
 use crate::{Result, math};
 use glam::DVec3;
 use std::sync::LazyLock;
@@ -77,7 +77,7 @@ pub(super) fn index_of_difference(difference: f64) -> f64 {
 pub(super) fn shifts(light: &Spectrum) -> Result<Shifts> {
     let which = usize::from(is_at_5_nm(light));
     let grid = narrow_grid(STEPS_NM[which]);
-    let values = sample(light, &grid, Interpolation::Sprague, Extrapolation::Zero)?;
+    let values = sample(light, &grid, Extrapolation::Zero)?;
     let white_2deg = Lamp::new(&values, &grid, Observer::cie_1931_2deg())?.white;
     let temperature = temperature::ohno::correlated(uv_1960_from_xyz(white_2deg))?;
     let reference = narrow_reference(temperature.kelvin, &grid)?;
@@ -106,4 +106,77 @@ fn appearances(values: &[f64], grid: &Grid, samples: &[Vec<f64>]) -> Result<(Vec
     })?;
     let jmh = samples.iter().map(|sample| model.appearance_from_xyz(lamp.xyz_of(sample)).jmh());
     Ok(jmh.map(|jmh| (UniformSpace::UCS.ucs_from_jmh(jmh), jmh.z)).unzip())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ErrorKind;
+    use crate::color::{daylight, illuminant};
+    use crate::spectrum::PiecewiseLinear;
+
+    fn lamp_named(name: &str) -> Spectrum {
+        Spectrum::PiecewiseLinear(illuminant::relative_power(name).unwrap())
+    }
+
+    #[test]
+    fn lamps_have_the_known_indices() {
+        let known = [("FL2", 70.120_824), ("FL11", 80.040_413), ("LED-B3", 85.324_309), ("HP1", 34.192_104)];
+        for (name, rf) in known {
+            let found = fidelity(&lamp_named(name)).unwrap();
+            assert!((found.rf - rf).abs() < 6e-7, "{name}: {}", found.rf);
+            assert!(found.rs.iter().all(|r| (0.0..=100.1).contains(r)), "{name}: {:?}", found.rs);
+        }
+        let fl2 = fidelity(&lamp_named("FL2")).unwrap();
+        assert!((fl2.kelvin - 4224.4776).abs() < 1e-3 && (fl2.duv - 1.78856e-3).abs() < 1e-8, "{fl2:?}");
+    }
+
+    #[test]
+    fn references_are_perfect() {
+        let body = |kelvin| Spectrum::blackbody(kelvin).unwrap();
+        let phase = Spectrum::PiecewiseLinear(daylight::of_kelvin(6504.0, daylight::Factors::Rounded).unwrap());
+        for light in [body(1200.0), body(2856.0), body(3990.0), phase] {
+            let found = fidelity(&light).unwrap();
+            assert!(found.rf > 99.98, "{}", found.rf);
+        }
+        // Between 4000 and 5000 K the reference is a mixture.
+        let mixed = fidelity(&body(4500.0)).unwrap().rf;
+        assert!((98.0..99.0).contains(&mixed), "{mixed}");
+    }
+
+    #[test]
+    fn the_index_is_straight_near_100_and_never_negative() {
+        assert!((index_of_difference(0.0) - 100.0).abs() < 1e-3);
+        assert!((index_of_difference(5.0) - (100.0 - 5.0 * SCALE)).abs() < 0.02);
+        assert!((0.0..1e-10).contains(&index_of_difference(60.0)), "{}", index_of_difference(60.0));
+    }
+
+    #[test]
+    fn what_a_table_lacks_is_dark() {
+        let Spectrum::PiecewiseLinear(whole) = lamp_named("FL2") else { panic!("a table") };
+        let inside: Vec<(f64, f64)> = whole.knots().filter(|k| (420.0..=680.0).contains(&k.0)).collect();
+        let cut = PiecewiseLinear::new(inside.iter().map(|k| k.0).collect(), inside.iter().map(|k| k.1).collect());
+        let dark = |k: (f64, f64)| if (420.0..=680.0).contains(&k.0) { k.1 } else { 0.0 };
+        let filled = PiecewiseLinear::new(whole.lambdas_nm().to_vec(), whole.knots().map(dark).collect());
+        let [cut, filled] = [cut, filled].map(|t| fidelity(&Spectrum::PiecewiseLinear(t.unwrap())).unwrap());
+        assert_eq!(cut.rf, filled.rf);
+        assert!((cut.rf - 70.12).abs() > 1e-3, "{}", cut.rf);
+    }
+
+    #[test]
+    fn sums_at_1_nm_are_near_those_at_5_nm() {
+        let Spectrum::PiecewiseLinear(coarse) = lamp_named("LED-B3") else { panic!("a table") };
+        let lambdas: Vec<f64> = (380..=780).map(f64::from).collect();
+        let fine = PiecewiseLinear::new(lambdas.clone(), coarse.eval_ascending(&lambdas)).unwrap();
+        let [at_5, at_1] = [coarse, fine].map(|t| fidelity(&Spectrum::PiecewiseLinear(t)).unwrap().rf);
+        assert!(at_5 != at_1 && (at_5 - at_1).abs() < 0.1, "{at_5} {at_1}");
+    }
+
+    #[test]
+    fn lights_without_a_reference_are_errors() {
+        for light in [Spectrum::Constant(0.0), Spectrum::line(460.0, 5.0).unwrap(), Spectrum::blackbody(700.0).unwrap()]
+        {
+            assert_eq!(fidelity(&light).unwrap_err().kind, ErrorKind::OutOfRange);
+        }
+    }
 }

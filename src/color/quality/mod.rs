@@ -9,15 +9,14 @@
 //! # How spectra are read
 //!
 //! These indices are defined as sums at equal steps, and their published values depend on them. So a light is not integrated
-//! exactly here, but sampled:
-//!
-//! * a table at equal steps of 1 to 20 nm with 6 or more samples is taken for a measurement, and interpolated by Sprague's
-//!   quintic polynomials \[CIE167\] ([`ssi`]: by straight lines);
-//! * other tables of steps of at least 1 nm, constants and blackbodies are evaluated at the wavelengths;
-//! * what is finer than the step, such as lines, gives its mean around each wavelength, weighted by a triangle: no power is lost.
+//! exactly here, but evaluated at the wavelengths of the sums, tables by straight lines. Where it is finer than 1 nm, as
+//! lines are, its mean around each wavelength is taken instead, weighted by a triangle, so that no power is lost. The
+//! samples' reflectances are interpolated by Sprague's quintic polynomials \[CIE167\].
 //!
 //! [`cri`] and [`cqs`] sum at 1 nm over 360–780 nm and hold tables constant beyond their ends; [`fidelity`] and [`tm30`] sum
 //! over 380–780 nm at 5 nm for tables at 5 nm, at 1 nm for all others, and take what is missing for 0, as the standard says.
+//! Exact integrals instead of sums would change Ra of the CIE illuminants by at most 0.021 (HP1), of
+//! most of them by less than 0.003.
 //! The scale of a light does not matter.
 //!
 //! ```

@@ -6,44 +6,26 @@ use crate::spectrum::{PiecewiseLinear, Spectrum};
 use crate::{Error, ErrorKind, Result};
 use glam::DVec3;
 
-/// Steps of tables that are taken for measurements, nm.
-const MEASURED_STEPS_NM: (f64, f64) = (1.0, 20.0);
-/// Fewest samples that Sprague's interpolation takes.
-const SPRAGUE_SAMPLES: usize = 6;
+/// Wavelengths written with a few decimals are 1 nm apart up to this.
+const EVENNESS_NM: f64 = 1e-6;
 
 /// The values of a light at the wavelengths of a grid, as the module says.
-///
-/// # Errors
-/// None for valid spectra; those of interpolation.
-pub(super) fn sample(
-    light: &Spectrum,
-    grid: &Grid,
-    interpolation: Interpolation,
-    beyond: Extrapolation,
-) -> Result<Vec<f64>> {
+pub(super) fn sample(light: &Spectrum, grid: &Grid, beyond: Extrapolation) -> Result<Vec<f64>> {
     match light {
         Spectrum::Constant(_) | Spectrum::Blackbody { .. } => {
             Ok(grid.lambdas_nm().into_iter().map(|lambda| light.eval(lambda)).collect())
         }
-        Spectrum::PiecewiseLinear(samples) => sample_table(samples, grid, interpolation, beyond),
+        Spectrum::PiecewiseLinear(samples) if is_fine(samples) => Ok(means(samples, grid, beyond)),
+        Spectrum::PiecewiseLinear(samples) => {
+            Ok(align(samples, grid, Interpolation::Linear, beyond)?.values().to_vec())
+        }
         Spectrum::Line { .. } => Ok(means(&light.tabulate(), grid, Extrapolation::Zero)),
     }
 }
 
-fn sample_table(
-    samples: &PiecewiseLinear,
-    grid: &Grid,
-    interpolation: Interpolation,
-    beyond: Extrapolation,
-) -> Result<Vec<f64>> {
-    if samples.lambdas_nm().windows(2).any(|pair| pair[1] - pair[0] < grid.step_nm().min(1.0) * (1.0 - 1e-9)) {
-        return Ok(means(samples, grid, beyond));
-    }
-    let step_nm = Grid::of_samples(samples).map_or(0.0, |own| own.step_nm());
-    let measured = (MEASURED_STEPS_NM.0..=MEASURED_STEPS_NM.1).contains(&(step_nm * (1.0 + 1e-9)))
-        && samples.values().len() >= SPRAGUE_SAMPLES;
-    let interpolation = if measured { interpolation } else { Interpolation::Linear };
-    Ok(align(samples, grid, interpolation, beyond)?.values().to_vec())
+/// Whether sums at 1 nm could miss something between two samples.
+fn is_fine(samples: &PiecewiseLinear) -> bool {
+    samples.lambdas_nm().windows(2).any(|pair| pair[1] - pair[0] < 1.0 - EVENNESS_NM)
 }
 
 /// Means around the wavelengths, weighted by triangles that reach to the neighbours.
@@ -116,5 +98,63 @@ impl Lamp {
     /// XYZ of a reflectance, whose values are on the lamp's grid.
     pub(super) fn xyz_of(&self, reflectance: &[f64]) -> DVec3 {
         self.weights.iter().zip(reflectance).map(|(weight, r)| *weight * *r).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn grid() -> Grid {
+        Grid::new(400.0, 500.0, 1.0).unwrap()
+    }
+
+    #[test]
+    fn a_line_keeps_its_power_and_its_centre() {
+        for (center, width) in [(432.0, 0.01), (432.5, 0.01), (447.123, 0.7), (450.0, 8.0)] {
+            let values = sample(&Spectrum::line(center, width).unwrap(), &grid(), Extrapolation::Zero).unwrap();
+            let power: f64 = values.iter().sum();
+            assert_relative_eq!(power, 1.0, max_relative = 1e-9);
+            let mean: f64 = grid().lambdas_nm().iter().zip(&values).map(|(l, v)| l * v).sum();
+            assert_relative_eq!(mean, center, max_relative = 1e-9);
+        }
+    }
+
+    #[test]
+    fn tables_are_straight_between_samples() {
+        let table = PiecewiseLinear::new(vec![380.0, 410.0, 470.0], vec![0.0, 30.0, 0.0]).unwrap();
+        let values = sample(&Spectrum::PiecewiseLinear(table.clone()), &grid(), Extrapolation::Zero).unwrap();
+        assert_eq!((values[0], values[10], values[40], values[71]), (20.0, 30.0, 15.0, 0.0));
+        let high = PiecewiseLinear::new(vec![420.0, 450.0], vec![2.0, 3.0]).unwrap();
+        let values = sample(&Spectrum::PiecewiseLinear(high), &grid(), Extrapolation::Constant).unwrap();
+        assert_eq!((values[0], values[100]), (2.0, 3.0));
+    }
+
+    #[test]
+    fn means_of_fine_tables() {
+        let lambdas: Vec<f64> = (0..=1000).map(|i| 400.0 + 0.1 * f64::from(i)).collect();
+        let ramp = PiecewiseLinear::new(lambdas.clone(), lambdas.clone()).unwrap();
+        let values = sample(&Spectrum::PiecewiseLinear(ramp), &grid(), Extrapolation::Constant).unwrap();
+        assert_relative_eq!(values[0], 400.0 + 1.0 / 3.0, max_relative = 1e-12);
+        assert_relative_eq!(values[50], 450.0, max_relative = 1e-12);
+        // Half of the triangle around 450 nm lies beyond the end.
+        let short: Vec<f64> = lambdas.iter().copied().filter(|l| *l < 450.05).collect();
+        let flat = Spectrum::PiecewiseLinear(PiecewiseLinear::new(short.clone(), vec![1.0; short.len()]).unwrap());
+        let values = sample(&flat, &grid(), Extrapolation::Zero).unwrap();
+        assert_relative_eq!(values[49], 1.0, max_relative = 1e-12);
+        assert_relative_eq!(values[50], 0.5, max_relative = 1e-6);
+        assert_eq!(values[51], 0.0);
+        assert_eq!(sample(&flat, &grid(), Extrapolation::Constant).unwrap()[51], 1.0);
+    }
+
+    #[test]
+    fn a_lamp_has_unit_luminance() {
+        let observer = Observer::cie_1931_2deg();
+        let values = vec![7.0; grid().lambdas_nm().len()];
+        let lamp = Lamp::new(&values, &grid(), observer).unwrap();
+        assert_eq!(lamp.white.y, 1.0);
+        assert_relative_eq!(lamp.xyz_of(&vec![0.5; values.len()]).y, 0.5, max_relative = 1e-14);
+        assert!(Lamp::new(&vec![0.0; values.len()], &grid(), observer).is_err());
     }
 }

@@ -2,7 +2,7 @@
 
 use super::sampling::sample;
 use crate::spectrum::Spectrum;
-use crate::spectrum::resample::{Extrapolation, Grid, Interpolation};
+use crate::spectrum::resample::{Extrapolation, Grid};
 use crate::{Error, ErrorKind, Result};
 
 /// Bands of 10 nm from 375 to 675 nm.
@@ -33,7 +33,7 @@ pub fn ssi(light: &Spectrum, reference: &Spectrum) -> Result<f64> {
 /// Power of the bands over their sum.
 fn bands(light: &Spectrum, what: &str) -> Result<[f64; BANDS]> {
     let grid = Grid::new(375.0, 675.0, 1.0)?;
-    let values = sample(light, &grid, Interpolation::Linear, Extrapolation::Zero)?;
+    let values = sample(light, &grid, Extrapolation::Zero)?;
     let trapezoids = |i: usize| {
         let band = &values[10 * i..=10 * i + 10];
         band.iter().sum::<f64>() - 0.5 * (band[0] + band[10])
@@ -55,5 +55,47 @@ fn weight(band: usize) -> f64 {
         LAST_WEIGHTS[LAST_WEIGHTS.len() - 1 - from_end] / 45.0
     } else {
         1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::illuminant;
+
+    fn lamp_named(name: &str) -> Spectrum {
+        Spectrum::PiecewiseLinear(illuminant::relative_power(name).unwrap())
+    }
+
+    #[test]
+    fn like_lights_have_100() {
+        for name in ["D65", "FL11", "HP1"] {
+            let light = lamp_named(name);
+            assert!((ssi(&light.clone().scaled(3e-5), &light).unwrap() - 100.0).abs() < 1e-6, "{name}");
+        }
+    }
+
+    #[test]
+    fn lights_by_likeness() {
+        // 94 is the published example.
+        let d65 = lamp_named("D65");
+        let found = ["C", "D55", "LED-B4", "FL2", "HP1"].map(|name| ssi(&lamp_named(name), &d65).unwrap());
+        assert_eq!(found[0].round(), 94.0);
+        assert!(found.windows(2).all(|pair| pair[0] > pair[1]), "{found:?}");
+    }
+
+    #[test]
+    fn weights_fall_at_both_ends() {
+        let weights: Vec<f64> = (0..BANDS).map(weight).collect();
+        assert_eq!(weights.iter().filter(|w| **w == 1.0).count(), 23);
+        assert!(weights[..6].is_sorted() && (weights[28] - 11.0 / 15.0).abs() < 1e-15 && weights[29] == 0.2);
+    }
+
+    #[test]
+    fn darkness_is_an_error() {
+        let infrared = Spectrum::line(900.0, 1.0).unwrap();
+        let error = ssi(&infrared, &Spectrum::Constant(1.0)).unwrap_err();
+        assert!(error.to_string().contains("light"), "{error}");
+        assert!(ssi(&Spectrum::Constant(1.0), &infrared).unwrap_err().to_string().contains("reference"));
     }
 }

@@ -21,7 +21,7 @@ pub struct Tm30 {
     /// Distance from the Planckian locus in CIE 1960 u, v; positive above it.
     pub duv: f64,
     /// The sixteen hue bins, 22.5° each, from hue 0 on; `None` where no sample has such a hue under the reference, which
-    /// happens below 1200 K alone.
+    /// happens below 1140 K alone.
     pub bins: [Option<HueBin>; BINS],
 }
 
@@ -95,4 +95,55 @@ fn hue_bin(shifts: &Shifts, bin: usize) -> Option<HueBin> {
 fn polygon_area(corners: &[[f64; 2]]) -> f64 {
     let next = corners.iter().cycle().skip(1);
     0.5 * corners.iter().zip(next).map(|(u, v)| u[0] * v[1] - u[1] * v[0]).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::{illuminant, quality};
+
+    fn lamp_named(name: &str) -> Spectrum {
+        Spectrum::PiecewiseLinear(illuminant::relative_power(name).unwrap())
+    }
+
+    #[test]
+    fn fidelity_is_that_of_the_cie() {
+        let light = lamp_named("FL11");
+        let (found, cie) = (tm30(&light).unwrap(), quality::fidelity(&light).unwrap());
+        assert_eq!((found.rf, found.kelvin, found.duv), (cie.rf, cie.kelvin, cie.duv));
+        assert_eq!(found.rs, cie.rs.to_vec());
+    }
+
+    #[test]
+    fn a_reference_shifts_nothing() {
+        let found = tm30(&Spectrum::blackbody(2856.0).unwrap()).unwrap();
+        assert!((found.rg - 100.0).abs() < 0.01, "{}", found.rg);
+        assert_eq!(found.bins.iter().flatten().map(|bin| bin.samples).sum::<usize>(), 99);
+        for bin in found.bins.iter().flatten() {
+            assert!(bin.fidelity > 99.9 && bin.chroma_shift_percent.abs() < 0.05 && bin.hue_shift.abs() < 5e-4);
+        }
+    }
+
+    #[test]
+    fn gamuts_of_lamps() {
+        // Of sodium half, of three narrow diodes more than the reference's.
+        assert!((tm30(&lamp_named("HP1")).unwrap().rg - 53.966_905).abs() < 1e-6);
+        let diodes = tm30(&lamp_named("LED-RGB1")).unwrap();
+        assert!(diodes.rg > 105.0, "{}", diodes.rg);
+        let gains = diodes.bins.iter().flatten().filter(|bin| bin.chroma_shift_percent > 0.0).count();
+        assert!((4..=12).contains(&gains), "{gains}");
+    }
+
+    #[test]
+    fn candles_leave_bins_empty() {
+        let bins = tm30(&Spectrum::blackbody(1080.0).unwrap()).unwrap().bins;
+        assert!(bins.iter().any(Option::is_none) && bins.iter().flatten().count() > 8);
+    }
+
+    #[test]
+    fn areas() {
+        let square = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+        assert_eq!(polygon_area(&square), 4.0);
+        assert_eq!(polygon_area(&square[..2]), 0.0);
+    }
 }

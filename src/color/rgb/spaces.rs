@@ -1,7 +1,7 @@
 //! The RGB spaces by name.
 //!
 //! Sources of primaries and whites: \[IEC61966\], \[BT601\], \[BT709\], \[BT2020\], \[BT2100\], \[DCI2012\], \[AdobeRGB1998\],
-//! \[Spaulding2000\], \[ACES\], \[SMPTE240M\] and the makers' papers that `transfer` names; the older working spaces of
+//! \[Spaulding2000\], \[ACES\], \[SMPTE240M\], \[H273\] and the makers' papers that `transfer` names; the older working spaces of
 //! photography as \[Lindbloom2017\] gives them.
 
 use super::RgbSpace;
@@ -200,6 +200,8 @@ static SPACES: LazyLock<Vec<RgbSpace>> = LazyLock::new(|| {
         new("smpte-240m", SMPTE_C, D65, Smpte240m),
         new("ebu-3213", PAL, [0.313, 0.329], Linear),
         new("plasa-e1.54", ROMM, [0.4254, 0.4044], Linear),
+        new("h273-film", [[0.681, 0.319], [0.243, 0.692], [0.145, 0.049]], [0.310, 0.316], Linear),
+        new("h273-22", [[0.63, 0.34], [0.295, 0.605], [0.155, 0.077]], D65, Linear),
         new("dcdm-xyz", X_Y_Z, E, Dcdm),
         new(
             "cie-rgb",

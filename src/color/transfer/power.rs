@@ -64,7 +64,7 @@ const fn video(alpha: f64, beta: f64) -> OffsetPower {
     }
 }
 
-/// \[SMPTE240M\].
+/// \[SMPTE240M\]; the code of the cut, which it rounds to 0.0913, as the power gives it: so decoding undoes encoding.
 pub(super) const SMPTE_240M: OffsetPower = OffsetPower {
     slope: 4.0,
     gain: 1.1115,
@@ -72,7 +72,7 @@ pub(super) const SMPTE_240M: OffsetPower = OffsetPower {
     exponent: 0.45,
     inverse_exponent: 1.0 / 0.45,
     cut: 0.0228,
-    encoded_cut: 0.0913,
+    encoded_cut: 0.091_259_003_526_327_61,
 };
 
 /// \[Spaulding2000\], output-referred: the pieces meet at 16^(1.8 / (1 − 1.8)) = 2⁻⁹.
@@ -125,6 +125,7 @@ mod tests {
         assert_eq!(RIMM_CLIP, 1.099 * math::pow(2.0, 0.45) - 0.099);
         assert_eq!(ROMM.cut, math::pow(16.0, 1.8 / (1.0 - 1.8)));
         assert!((ROMM.encode(ROMM.cut) - ROMM.encoded_cut).abs() < 1e-17);
+        assert!((SMPTE_240M.encode(SMPTE_240M.cut) - SMPTE_240M.encoded_cut).abs() < 1e-16);
         assert!((RIMM.encode(2.0) - 1.0).abs() < 1e-15);
     }
 }

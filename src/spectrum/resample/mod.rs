@@ -135,7 +135,7 @@ mod tests {
 
     /// A polynomial in wavelength whose values are near 1.
     fn polynomial(degree: i32) -> impl Fn(f64) -> f64 {
-        move |lambda| (0..=degree).map(|k| ((lambda - 430.0) / 40.0).powi(k) / f64::from(k + 1)).sum()
+        move |lambda| (0..=degree).rev().fold(0.0, |sum, k| sum * ((lambda - 430.0) / 40.0) + 1.0 / f64::from(k + 1))
     }
 
     #[test]
