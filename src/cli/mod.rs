@@ -97,7 +97,8 @@ fn one_line(text: &str) -> String {
     let lines =
         text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"));
     let mut message = String::new();
-    for line in lines.filter(|line| !line.is_empty() && !(line.starts_with('[') && line.len() > LONGEST_LIST)) {
+    let helps = |line: &&str| !(line.is_empty() || line.starts_with("tip: to pass") || line.len() > LONGEST_LIST);
+    for line in lines.filter(helps) {
         let joint = if line.starts_with(['[', 't']) { "; " } else { " " };
         message += if message.is_empty() { "" } else { joint };
         message += line.strip_prefix("error: ").unwrap_or(line);

@@ -59,7 +59,8 @@ impl Quantity {
 /// One spectrum of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedSpectrum {
-    /// The column's name; "column 2" and so on where columns have none; empty for a lone spectrum without a name.
+    /// The column's name; "column 2" and so on where columns have none; empty for a lone spectrum whose column has none, or
+    /// one that says what the values are.
     pub name: String,
     /// Wavelengths in nm, ascending, with one value each.
     pub table: PiecewiseLinear,

@@ -87,7 +87,7 @@ impl Table {
         let quantities: Vec<_> = names.iter().map(|name| Quantity::from_word(name)).collect();
         let quantity = quantities[0].filter(|_| quantities.iter().all(|q| *q == quantities[0]));
         let is_alone = names.len() == 1;
-        let nameless = is_alone && self.header.is_none();
+        let nameless = is_alone && (self.header.is_none() || quantity.is_some());
         let spectra = names.into_iter().zip(self.columns).map(|(name, samples)| {
             let table = samples.finish().map_err(|e| if is_alone { e } else { e.at(format!("column {name:?}")) })?;
             Ok(NamedSpectrum { name: if nameless { String::new() } else { name }, table })
