@@ -59,11 +59,11 @@ def resampling():
     for name, interpolator in INTERPOLATORS.items():
         arguments, expected = [], []
         for wavelengths, values in tables:
-            for step in (1.0, 5.0, 0.7):
+            for step in (0.7, 1.0, 5.0):
                 at = np.arange(wavelengths[0], wavelengths[-1] + 1e-9, step)
                 arguments.append([as_argument(wavelengths, values), at.tolist(), name])
                 expected.append(interpolator(wavelengths, values)(at))
-        rows.append(Comparison(f"{name} interpolation at equal distances", "interpolate", arguments, expected, 1e-12, True, 6))
+        rows.append(Comparison(f"{name} interpolation at equal distances", "interpolate", arguments, expected, 1e-12, True, 2))
     for name in ("linear", "cubic-spline"):
         arguments, expected = [], []
         for count in (4, 5, 9, 60):
@@ -73,7 +73,7 @@ def resampling():
                 at = np.sort(np.append(rng.uniform(knots[0], knots[-1], size=200), knots))
                 arguments.append([as_argument(knots, values), at.tolist(), name])
                 expected.append(INTERPOLATORS[name](knots, values)(at))
-        rows.append(Comparison(f"{name} interpolation at unequal distances", "interpolate", arguments, expected, 1e-12, True, 6))
+        rows.append(Comparison(f"{name} interpolation at unequal distances", "interpolate", arguments, expected, 1e-12, True, 2))
     return rows + aligning() + trimming()
 
 
@@ -85,6 +85,10 @@ def aligning():
         for sd in checker()[::2] + others():
             for inside, interpolator in INTERPOLATORS.items():
                 for shape in shapes:
+                    # colour-science extends from the last sample of the grid inside the range, this library from the last
+                    # sample: they are the same where the grid has both ends.
+                    if (sd.wavelengths[-1] - shape[0]) % shape[2] != 0 and sd.wavelengths[-1] < shape[1]:
+                        continue
                     aligned = sd.copy().align(
                         SpectralShape(*shape),
                         interpolator=interpolator,
@@ -93,7 +97,7 @@ def aligning():
                     arguments.append([of_sd(sd), list(shape), inside, outside])
                     # colour-science extrapolates linearly from the samples as interpolated, this library from those given.
                     expected.append(aligned.values if outside == "constant" else extended(sd, aligned))
-        rows.append(Comparison(f"alignment, {outside} beyond", "align", arguments, expected, 1e-12, True, 6))
+        rows.append(Comparison(f"alignment, {outside} beyond", "align", arguments, expected, 1e-12, True, 4))
     return rows
 
 
@@ -106,14 +110,14 @@ def extended(sd, aligned):
 
 
 def trimming():
-    ranges = [(400.0, 700.0), (360.0, 555.0), (501.0, 509.9)]
+    ranges = [(400.0, 700.0), (360.0, 555.0), (501.0, 519.9)]
     arguments, expected = [], []
     for sd in checker()[::6]:
         for start, end in ranges:
             trimmed = sd.copy().trim(SpectralShape(start, end, 1))
             arguments.append([of_sd(sd), start, end])
             expected.append(np.stack([trimmed.wavelengths, trimmed.values], axis=1))
-    return [Comparison("trimming", "trim", arguments, expected, 0.0)]
+    return [Comparison("trimming", "trim", arguments, expected, 0.0, frozen_cases=3)]
 
 
 # The exact rule
@@ -167,7 +171,7 @@ def exact():
         [oracle.xyz(table, lamp, white=lamp) for table in tables for lamp in lamps.values()],
         1e-12,
         True,
-        frozen_cases=8,
+        frozen_cases=4,
     )
     yield Comparison(
         "the same v. midpoints of 0.002 nm",
@@ -199,7 +203,7 @@ def exact():
         [oracle.xyz(table) for table in tables],
         1e-12,
         True,
-        frozen_cases=8,
+        frozen_cases=4,
     )
 
 
@@ -235,6 +239,7 @@ def lines():
         [oracle.xyz(subdivided(table, 20)) for table in tables],
         1e-12,
         True,
+        frozen_cases=2,
     )
 
 
@@ -249,7 +254,7 @@ def observers():
             curves = [(cmfs.wavelengths, cmfs.values[:, axis]) for axis in range(3)]
             integrals = [integral_from(first, table, curve) for curve in curves]
             expected.append(np.array(integrals) / integral_from(first, curves[1]))
-    return [Comparison("XYZ of emissions for four observers", "xyz_of_emission", arguments, expected, 1e-12, True, 8)]
+    return [Comparison("XYZ of emissions for four observers", "xyz_of_emission", arguments, expected, 1e-12, True, 6)]
 
 
 def integral_from(first, *tables):
@@ -324,7 +329,8 @@ def astm_e308():
                     arguments.append([of_sd(sampled), lamp, observer])
                     xyz = practice(sampled, colour.MSDS_CMFS[known_as], colour.SDS_ILLUMINANTS[lamp])
                     expected.append(xyz / 100.0)
-        yield Comparison(f"XYZ by ASTM E308 at {step} nm", "xyz_by_astm_e308", arguments, expected, 1e-12, True, 8)
+        frozen = 2 if step == 1 else 8
+        yield Comparison(f"XYZ by ASTM E308 at {step} nm", "xyz_by_astm_e308", arguments, expected, 1e-12, True, frozen)
 
     arguments, expected = [], []
     for observer, known_as in list(OBSERVER_NAMES.items())[:2]:
@@ -336,7 +342,7 @@ def astm_e308():
                     sampled, colour.MSDS_CMFS[known_as], colour.SDS_ILLUMINANTS[lamp], mi_20nm_interpolation_method=False
                 )
                 expected.append(xyz / 100.0)
-    yield Comparison("XYZ by weights at 20 nm", "xyz_by_astm_e308_weights", arguments, expected, 1e-12, True, 8)
+    yield Comparison("XYZ by weights at 20 nm", "xyz_by_astm_e308_weights", arguments, expected, 1e-12, True, 6)
 
     arguments, expected = [], []
     for observer, known_as in OBSERVER_NAMES.items():

@@ -83,7 +83,7 @@ impl PlanckianLocus {
 
     /// Temperature of the radiator whose CIE 1960 u, v are nearest, and the distance to it.
     ///
-    /// By Newton's method on the definition, begun at the nearest of 250 points of the locus; within 1e-6 K of it up to
+    /// By Newton's method on the definition, begun at the nearest of 251 points of the locus; within 1e-6 K of it up to
     /// 25 000 K. The CIE uses the result only up to a distance of 0.05 \[CIE15\], which is not checked.
     ///
     /// # Errors

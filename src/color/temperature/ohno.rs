@@ -139,8 +139,8 @@ mod tests {
             for duv in [-0.02, -0.001, 0.0, 0.001, 0.02] {
                 let found = correlated(super::super::uv_at(kelvin, duv).unwrap()).unwrap();
                 let error = found.kelvin - its_90_from_si(kelvin);
-                // Light beyond 780 nm, which the sums leave out, counts at the cold end.
-                assert!(error.abs() < if kelvin < 2000.0 { 0.1 } else { 0.05 }, "{kelvin} {duv}: {error}");
+                // Sums at 1 nm over 360–780 nm are not integrals; the table itself is good for 0.06 K.
+                assert!(error.abs() < 0.06 + 3e-5 * kelvin, "{kelvin} {duv}: {error}");
                 assert!((found.duv - duv).abs() < 1e-6, "{kelvin} {duv}: {}", found.duv);
             }
         }
