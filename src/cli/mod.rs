@@ -138,3 +138,33 @@ fn not_yet(name: &str, args: &NotYet) -> Result<ExitCode> {
     let with = if args.arguments.is_empty() { "" } else { " (and its arguments)" };
     Err(Error::new(ErrorKind::Usage, format!("`abbe {name}`{with} is not there yet")))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn usage_errors_are_one_line() {
+        let message = |args: &[&str]| one_line(&Cli::try_parse_from(args).unwrap_err().to_string());
+        assert_eq!(
+            message(&["abbe", "glass", "--att", "5"]),
+            "unexpected argument '--att' found; tip: a similar argument exists: '--at'"
+        );
+        assert_eq!(message(&["abbe", "glass", "--colour"]), "unexpected argument '--colour' found");
+        assert_eq!(message(&["abbe", "render"]), "the following required arguments were not provided: <SCENE>");
+        let kinds = message(&["abbe", "spectrum", "a.csv", "--as", "emision"]);
+        let expected = "invalid value 'emision' for '--as <KIND>'; [possible values: emission, reflectance, transmittance]; \
+            tip: a similar value exists: 'emission'";
+        assert_eq!(kinds, expected);
+        let space = message(&["abbe", "spectrum", "a.csv", "--space", "rec202"]);
+        assert!(
+            space.starts_with("invalid value 'rec202' for '--space <NAME>'; tip: ") && space.len() < 200,
+            "{space}"
+        );
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

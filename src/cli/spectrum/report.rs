@@ -291,3 +291,24 @@ fn plot_note(m: &Measurement) -> String {
     }
     note
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_the_digits_that_were_asked_for() {
+        let six = |value| significant(value, 6);
+        assert_eq!(
+            [0.0, 1.0, -0.5, 123.456_789, 0.000_1].map(six),
+            ["0", "1.00000", "-0.500000", "123.457", "0.000100"]
+        );
+        assert_eq!([1e-5, 2.5e8, 1_234_567.8].map(six), ["1.00000e-5", "2.50000e8", "1234568"]);
+        assert_eq!(triple([0.5, -12.0, 1e-9]), "0.500000    -12.0000  1.00000e-9");
+    }
+
+    #[test]
+    fn cells_are_quoted_where_they_have_to_be() {
+        assert_eq!(["red", "a,b", "say \"x\""].map(quoted), ["red", "\"a,b\"", "\"say \"\"x\"\"\""]);
+    }
+}
