@@ -27,7 +27,12 @@ def tables():
     colors = SDS_TCS["CIE 2024"]
     evaluation = load_TCS_CIE2017(colour.SpectralShape(380, 780, 1)).to_sds()
     made = {
-        "cri": ("test colour samples of the CIE colour rendering index", "CIE 13.3:1995; TCS15 as in CIE 224", list(colors), list(colors.values())),
+        "cri": (
+            "test colour samples of the CIE colour rendering index",
+            "CIE 13.3:1995; TCS15 is the CIE's data set of 2024, Japanese skin",
+            list(colors),
+            list(colors.values()),
+        ),
         "cie2017": (
             "99 colour evaluation samples of the CIE 2017 colour fidelity index and of ANSI/IES TM-30",
             "CIE 224:2017",
@@ -66,7 +71,9 @@ def main():
         write(DATA / "quality" / f"{name}.csv", header(title, edition), columns, [samples(sd) for sd in sds])
     write(
         DATA / "quality" / "luminous_efficiency.csv",
-        header("luminous efficiency functions that are not an observer's", "CIE 1951; Judd 1951; Vos 1978", "dimensionless"),
+        header(
+            "luminous efficiency functions that are not an observer's", "CIE 1951; Judd 1951; Vos 1978", "dimensionless"
+        ),
         list(EFFICIENCIES),
         [samples(colour.SDS_LEFS[name]) for name in EFFICIENCIES.values()],
     )

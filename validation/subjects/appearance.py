@@ -8,7 +8,8 @@ RANDOM = np.random.default_rng(20221)
 SURROUNDS = ["average", "dim", "dark"]
 LUMINANCES = [0.4, 4.0, 63.66, 1000.0]
 XY = colour.CCS_ILLUMINANTS["CIE 1931 2 Degree Standard Observer"]
-WHITES = {name: colour.xy_to_XYZ(XY[name]) for name in ["D65", "A", "FL11"]} | {"D50": colour.xy_to_XYZ(XY["D50"]) * 0.9}
+LUMINANCE_FACTORS = {"D65": 1.0, "A": 1.0, "FL11": 1.0, "D50": 0.9}
+WHITES = {name: colour.xy_to_XYZ(XY[name]) * y for name, y in LUMINANCE_FACTORS.items()}
 SRGB = colour.RGB_COLOURSPACES["sRGB"].matrix_RGB_to_XYZ
 BT2020 = colour.RGB_COLOURSPACES["ITU-R BT.2020"].matrix_RGB_to_XYZ
 
@@ -33,7 +34,8 @@ def colors(white):
     """Stimuli of Y up to 1.2: colours of two gamuts under their own white, dim ones, near greys, and the white."""
     rgb = RANDOM.uniform(0.0, 1.0, (24, 3)) ** 2.2
     saturated = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [0, 1, 1], [1, 0, 1]], dtype=float) * 0.7 + 1e-3
-    inside = np.vstack([rgb @ SRGB.T, rgb @ BT2020.T, saturated @ SRGB.T, rgb[:6] @ SRGB.T * 1e-4, rgb[:4] @ SRGB.T * 1.2])
+    dim, bright = rgb[:6] * 1e-4, rgb[:4] * 1.2
+    inside = np.vstack([rgb @ SRGB.T, rgb @ BT2020.T, saturated @ SRGB.T, dim @ SRGB.T, bright @ SRGB.T])
     under_white = inside / WHITES["D65"] * white
     greys = np.outer([1e-3, 0.18, 0.9], white * [1.02, 1.0, 0.97])
     return np.vstack([under_white, greys])
@@ -94,7 +96,8 @@ def of_model(name):
 
 
 def out_of_locus():
-    """Stimuli that no light gives, with negative responses: J, C and h, as Q and s of negative J are NaN in colour-science."""
+    """Stimuli that no light gives, with negative responses: J, C and h, as Q and s of negative J are NaN in
+    colour-science."""
     xyz = RANDOM.uniform([-0.3, -0.2, -0.3], [0.9, 0.6, 0.9], (60, 3))
     arguments, expected = [], []
     for name in ["ciecam02", "cam16", "ciecam16", "hellwig2022"]:
@@ -103,7 +106,8 @@ def out_of_locus():
             arguments += [[name, conditions, x] for x in xyz.tolist()]
             expected += np.stack([s.J, s.C, s.h], axis=-1).tolist()
     # Chroma reaches 1e5 where the sum that it is divided by is near 0.
-    return [Comparison("appearance out of the locus: J C h, relative", "jch_from_xyz", arguments, expected, 1e-9, relative=True)]
+    subject = "appearance out of the locus: J C h, relative"
+    return [Comparison(subject, "jch_from_xyz", arguments, expected, 1e-9, relative=True)]
 
 
 def hellwig_extension():
@@ -153,10 +157,12 @@ def uniform_spaces():
         ucs = getattr(colour, f"JMh_CIECAM02_to_CAM02{kind}")(jmh)
         back = getattr(colour, f"CAM02{kind}_to_JMh_CIECAM02")(ucs[:2000])
         difference = colour.delta_E(pairs[:, 0], pairs[:, 1], method=f"CAM02-{kind}")
+        there, here = [[space, x] for x in jmh.tolist()], [[space, x] for x in ucs[:2000].tolist()]
+        two = [[space, *x] for x in pairs.tolist()]
         made += [
-            Comparison(f"CAM02/CAM16-{kind} from J M h", "ucs_from_jmh", [[space, x] for x in jmh.tolist()], list(ucs), 1e-11),
-            Comparison(f"J M h from CAM02/CAM16-{kind}", "jmh_from_ucs", [[space, x] for x in ucs[:2000].tolist()], list(back), 1e-9),
-            Comparison(f"ΔE' CAM02/CAM16-{kind}", "ucs_difference", [[space, *x] for x in pairs.tolist()], list(difference), 1e-11),
+            Comparison(f"CAM02/CAM16-{kind} from J M h", "ucs_from_jmh", there, list(ucs), 1e-11),
+            Comparison(f"J M h from CAM02/CAM16-{kind}", "jmh_from_ucs", here, list(back), 1e-9),
+            Comparison(f"ΔE' CAM02/CAM16-{kind}", "ucs_difference", two, list(difference), 1e-11),
         ]
     return made
 
@@ -167,8 +173,8 @@ def comparisons():
 
 
 def checks(evaluate):
-    """Hue quadrature is compared with CIE 159's formula above. colour-science has it between red and blue hues, 20.14° to
-    237.53°; beyond it takes Hunt's constants 385.9, 14.1, 85.9 and 0.856, which differ by up to 6."""
+    """Hue quadrature is compared with CIE 159's formula above. colour-science has it between red and blue hues, 20.14°
+    to 237.53°; beyond it takes Hunt's constants 385.9, 14.1, 85.9 and 0.856, which differ by up to 6."""
     h = np.linspace(20.15, 237.52, 5001)
     formula = np.abs(hue_quadrature("ciecam02", h) - colour.appearance.ciecam02.hue_quadrature(h.copy())).max()
     z = np.linspace(0.0, 359.99, 5001)

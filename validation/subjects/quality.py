@@ -26,7 +26,8 @@ def lights():
     made = {**ILLUMINANTS, **LAMPS}
     for kelvin in (1800, 3999.9, 4000.1, 4500, 4999, 5001, 6500, 9300, 20000):
         made[f"blackbody {kelvin}"] = colour.sd_blackbody(kelvin, colour.SpectralShape(360, 830, 1))
-    made["diodes"] = colour.sd_multi_leds([457, 530, 615], half_spectral_widths=[20, 30, 20], peak_power_ratios=[0.7, 1.0, 0.9])
+    peaks, widths, powers = [457, 530, 615], [20, 30, 20], [0.7, 1.0, 0.9]
+    made["diodes"] = colour.sd_multi_leds(peaks, half_spectral_widths=widths, peak_power_ratios=powers)
     made["FL2 cut"] = colour.SDS_ILLUMINANTS["FL2"].copy().trim(colour.SpectralShape(400, 700, 5))
     return made
 
@@ -114,11 +115,8 @@ def luminous():
             at_samples.append([name, samples(sd)])
             sums.append([photometry.luminous_flux(sd, lef, k_m), photometry.luminous_efficiency(sd, lef)])
     # The tables of 1924 and 1931, and of 2008 and 2015, differ by rounding: 5e-13 and 5e-7.
-    return [
-        Comparison(
-            "luminous flux and efficiency, sums at samples", "luminous_at_samples", at_samples, sums, 1e-6, True, frozen_cases=14
-        )
-    ]
+    subject = "luminous flux and efficiency, sums at samples"
+    return [Comparison(subject, "luminous_at_samples", at_samples, sums, 1e-6, True, frozen_cases=14)]
 
 
 def comparisons():

@@ -144,6 +144,18 @@ fn every_finite_color_has_a_finite_appearance() {
 }
 
 #[test]
+fn negative_responses_return_from_the_models_that_have_no_pole_there() {
+    for (name, model, white) in models().into_iter().filter(|m| m.0.starts_with("zcam") || m.0.starts_with("ciecam16"))
+    {
+        for color in [DVec3::new(0.1, 0.3, -0.05), DVec3::new(0.5, 0.1, 0.02), DVec3::new(0.1, 0.02, 0.9)] {
+            let seen = model.appearance_from_xyz(color * white);
+            let back = model.xyz_from_jch(seen.jch()) / white;
+            assert!((back - color).abs().max_element() < 1e-9, "{name}: {color} {back} {seen:?}");
+        }
+    }
+}
+
+#[test]
 fn hue_quadrature_passes_the_unique_hues_without_steps() {
     let hues = &response::UNIQUE_HUES;
     for (i, degrees) in hues.degrees.into_iter().enumerate() {

@@ -37,20 +37,30 @@ const PQ_M: [f64; 2] = [2610.0 / 16384.0, 1.7 * 2523.0 / 32.0];
 const UNIQUE_HUES: UniqueHues =
     UniqueHues { degrees: [33.44, 89.29, 146.30, 238.36], eccentricities: [0.68, 0.64, 1.52, 0.77] };
 
+/// The quantiser's code of a cone response in cd/m². Below 0, where the published curve has a pole, it goes on
+/// point-symmetrically about its value there.
 fn compress(x: f64) -> f64 {
-    let p = signed_pow(x / 10_000.0, PQ_M[0]);
-    signed_pow((PQ_C[0] + PQ_C[1] * p) / (PQ_C[2] * p + 1.0), PQ_M[1])
+    let p = pow(x.abs() / 10_000.0, PQ_M[0]);
+    let code = pow((PQ_C[0] + PQ_C[1] * p) / (PQ_C[2] * p + 1.0), PQ_M[1]);
+    if x < 0.0 { 2.0 * code_of_black() - code } else { code }
 }
 
-fn decompress(response: f64) -> f64 {
-    let p = signed_pow(response, 1.0 / PQ_M[1]);
-    10_000.0 * signed_pow((p - PQ_C[0]) / (PQ_C[1] - PQ_C[2] * p), 1.0 / PQ_M[0])
+/// Inverse of [`compress`]; NaN for codes that no response reaches.
+fn decompress(code: f64) -> f64 {
+    let from_black = code - code_of_black();
+    let root = pow(code_of_black() + from_black.abs(), 1.0 / PQ_M[1]);
+    let p = (root - PQ_C[0]).max(0.0) / (PQ_C[1] - PQ_C[2] * root);
+    (10_000.0 * pow(p, 1.0 / PQ_M[0])).copysign(from_black)
+}
+
+fn code_of_black() -> f64 {
+    pow(PQ_C[0], PQ_M[1])
 }
 
 /// ZCAM under viewing conditions \[Safdar2021\]: a model for high dynamic range, in which light is absolute.
 ///
 /// XYZ, the white and the background are in cd/m² (Y of the white is its luminance). Responses to more than 10⁴ cd/m² are
-/// extrapolated. Defined for every finite XYZ.
+/// extrapolated, those below 0 mirrored; defined for every finite XYZ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Zcam {
     lms_from_xyz: DMat3,

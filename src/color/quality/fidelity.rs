@@ -17,12 +17,12 @@ const STEPS_NM: [f64; 2] = [1.0, 5.0];
 const SCALE: f64 = 6.73;
 const COUNT: usize = 99;
 
-/// The colour evaluation samples on the grids of both steps.
+/// The colour evaluation samples on the grids of both steps, of which the coarse one is every fifth of the fine one.
 static SAMPLES: LazyLock<[Vec<Vec<f64>>; 2]> = LazyLock::new(|| {
     let text = include_str!("../../../data/quality/cie2017.csv");
-    STEPS_NM.map(|step_nm| {
-        reflectances(text, &narrow_grid(step_nm)).expect("data/quality/cie2017.csv holds reflectances every 1 nm")
-    })
+    let fine = reflectances(text, &narrow_grid(STEPS_NM[0])).expect("data/quality/cie2017.csv holds reflectances");
+    let coarse = fine.iter().map(|sample| sample.iter().copied().step_by(5).collect()).collect();
+    [fine, coarse]
 });
 
 /// Colour fidelity of a light \[CIE224\]: 100 where colours look as under the reference.
