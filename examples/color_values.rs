@@ -5,14 +5,12 @@
 //!
 //! * `illuminants`: names; `reflectances`, `emissions`: tables; `lines`: `[centre, width]` in nm;
 //! * `blackbodies`: temperatures in K, `wavelengths_nm` to evaluate them at;
-//! * `transfer`: components to encode and to decode;
-//! * `reflectance_rgb`, `emission_rgb`: linear sRGB colours to upsample;
-//! * `realisable_rgb`: linear colours to look for a reflectance of, in every space.
+//! * `transfer`: components to encode and to decode.
 
-use abbe::color::{self, Observer, RgbSpace, illuminant, upsample};
+use abbe::color::{self, Observer, RgbSpace, illuminant};
 use abbe::spectrum::{PiecewiseLinear, Spectrum};
 use abbe::{Error, ErrorKind, Result};
-use glam::{DMat3, DVec3};
+use glam::DMat3;
 use serde_json::{Value, json};
 use std::io::Read;
 
@@ -58,9 +56,6 @@ fn answer(text: &str) -> Result<Value> {
         "spaces": RgbSpace::all().iter().map(space).collect::<Vec<_>>(),
         "encoded": numbers(&request["transfer"])?.into_iter().map(color::srgb_encode).collect::<Vec<_>>(),
         "decoded": numbers(&request["transfer"])?.into_iter().map(color::srgb_decode).collect::<Vec<_>>(),
-        "reflectance_spectra": upsampled(&request, "reflectance_rgb", upsample::reflectance)?,
-        "realisable": realisable(&request)?,
-        "emission_spectra": upsampled(&request, "emission_rgb", upsample::emission)?,
     }))
 }
 
@@ -83,32 +78,6 @@ fn space(space: &RgbSpace) -> Value {
         "xyz_from_rgb": rows(space.xyz_from_rgb),
         "rgb_from_xyz": rows(space.rgb_from_xyz),
     })
-}
-
-/// The upsampled spectra at 360, 361, …, 830 nm.
-fn upsampled(
-    request: &Value,
-    key: &str,
-    method: impl Fn([f64; 3], &RgbSpace) -> Result<Spectrum>,
-) -> Result<Vec<Vec<f64>>> {
-    let spectrum = |value: &Value| {
-        let spectrum = method(rgb(value)?, RgbSpace::srgb())?;
-        Ok((360..=830).map(|lambda| spectrum.eval(f64::from(lambda))).collect())
-    };
-    list(request, key)?.iter().map(spectrum).collect()
-}
-
-/// By space: whether each colour has a reflectance.
-fn realisable(request: &Value) -> Result<Value> {
-    let colors = list(request, "realisable_rgb")?.iter().map(rgb).collect::<Result<Vec<_>>>()?;
-    let in_space = |space: &RgbSpace| -> Vec<bool> {
-        colors.iter().map(|&color| upsample::reflectance(color, space).is_ok()).collect()
-    };
-    Ok(RgbSpace::all().iter().map(|space| (space.name.to_owned(), json!(in_space(space)))).collect())
-}
-
-fn rgb(value: &Value) -> Result<[f64; 3]> {
-    Ok(DVec3::from_slice(&numbers_exactly(value, 3)?).to_array())
 }
 
 fn list<'a>(value: &'a Value, key: &str) -> Result<&'a [Value]> {

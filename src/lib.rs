@@ -72,12 +72,17 @@
 //! * `[IEC61966]` IEC 61966-2-1, Default RGB colour space – sRGB, 1999.
 //! * `[ISO7944]` ISO 7944, Optics and optical instruments – Reference wavelengths, 1998.
 //! * `[Ize2013]` T. Ize, Robust BVH ray traversal, JCGT 2(2), 2013.
+//! * `[Jakob2019]` W. Jakob and J. Hanika, A low-dimensional function space for efficient spectral upsampling, CGF 38(2), 2019.
 //! * `[JoeKuo2008]` S. Joe and F. Y. Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J.
 //!   Sci. Comput. 30(5), 2008.
 //! * `[LaineKarras2011]` S. Laine and T. Karras, Stratified sampling for stochastic transparency, CGF 30(4), 2011.
 //! * `[Lam1985]` K. M. Lam, Metamerism and colour constancy, PhD thesis, Bradford, 1985.
+//! * `[MacAdam1935]` D. L. MacAdam, Maximum visual efficiency of colored materials, JOSA 25(11), 1935.
+//! * `[Mallett2019]` I. Mallett and C. Yuksel, Spectral primary decomposition for rendering with sRGB reflectance, EGSR, 2019.
+//! * `[Meng2015]` J. Meng et al., Physically meaningful rendering using tristimulus colours, CGF 34(4), 2015.
 //! * `[Mitchell1990]` D. P. Mitchell, Robust ray intersection with interval arithmetic, Graphics Interface, 1990.
 //! * `[Moore2009]` R. E. Moore et al., Introduction to Interval Analysis, 2009.
+//! * `[Otsu2018]` H. Otsu et al., Reproducing spectral reflectances from tristimulus colours, CGF 37(6), 2018.
 //! * `[PBRT4]` M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, 4th edition, 2023.
 //! * `[Planck1901]` M. Planck, Über das Gesetz der Energieverteilung im Normalspectrum, Ann. Phys. 309, 1901.
 //! * `[Polyanskiy2024]` M. N. Polyanskiy, Refractiveindex.info database of optical constants, Sci. Data 11, 2024.
@@ -87,6 +92,7 @@
 //! * `[SI2019]` BIPM, The International System of Units, 9th edition, 2019.
 //! * `[Schoen1970]` A. H. Schoen, Infinite periodic minimal surfaces without self-intersections, NASA TN D-5541, 1970.
 //! * `[ShirleyChiu1997]` P. Shirley and K. Chiu, A low distortion map between disk and square, JGT 2(3), 1997.
+//! * `[Smits1999]` B. Smits, An RGB-to-spectrum conversion for reflectances, JGT 4(4), 1999.
 //! * `[Steele2014]` G. L. Steele et al., Fast splittable pseudorandom number generators, OOPSLA, 2014.
 //! * `[TM27]` ANSI/IES TM-27, IES standard format for the electronic transfer of spectral data, 2020.
 //! * `[Tolkowsky1919]` M. Tolkowsky, Diamond Design, 1919.
@@ -97,6 +103,7 @@
 //! * `[Wald2007]` I. Wald, On fast construction of SAH-based bounding volume hierarchies, IEEE RT, 2007.
 //! * `[Wald2008]` I. Wald et al., Getting rid of packets, IEEE RT, 2008.
 //! * `[Wavefront1995]` Wavefront Technologies, Advanced Visualizer Manual, appendix B1, object files, 1995.
+//! * `[Wendland1995]` H. Wendland, Piecewise polynomial, positive definite and compactly supported radial functions, 1995.
 //! * `[Wilkie2014]` A. Wilkie et al., Hero wavelength spectral sampling, CGF 33(4), 2014.
 //! * `[Woop2013]` S. Woop, C. Benthin, I. Wald, Watertight ray/triangle intersection, JCGT 2(1), 2013.
 //! * `[Ylitie2017]` H. Ylitie et al., Efficient incoherent ray traversal on GPUs through compressed wide BVHs, HPG, 2017.

@@ -55,6 +55,11 @@ pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
+/// Cube root, of negative numbers too.
+pub fn cbrt(x: f64) -> f64 {
+    libm::cbrt(x)
+}
+
 /// x to the power y.
 pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)

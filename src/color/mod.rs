@@ -13,7 +13,6 @@ pub mod illuminant;
 pub mod integration;
 mod observer;
 mod rgb;
-mod smoothest;
 mod table;
 pub mod upsample;
 mod xyz;
