@@ -117,6 +117,7 @@
 //! * `[IEC61966]` IEC 61966-2-1, Default RGB colour space – sRGB, 1999.
 //! * `[ISO7944]` ISO 7944, Optics and optical instruments – Reference wavelengths, 1998.
 //! * `[Ize2013]` T. Ize, Robust BVH ray traversal, JCGT 2(2), 2013.
+//! * `[Jakob2019]` W. Jakob and J. Hanika, A low-dimensional function space for efficient spectral upsampling, CGF 38(2), 2019.
 //! * `[JoeKuo2008]` S. Joe and F. Y. Kuo, Constructing Sobol sequences with better two-dimensional projections, SIAM J.
 //!   Sci. Comput. 30(5), 2008.
 //! * `[Kang2002]` B. Kang et al., Design of advanced color temperature control system for HDTV applications, J. Korean
@@ -133,14 +134,18 @@
 //! * `[Luo1998]` M. R. Luo and R. W. G. Hunt, A chromatic adaptation transform and a colour inconstancy index, Color Res.
 //!   Appl. 23, 1998.
 //! * `[Luo2006]` M. R. Luo et al., Uniform colour spaces based on CIECAM02, Color Res. Appl. 31, 2006.
+//! * `[MacAdam1935]` D. L. MacAdam, Maximum visual efficiency of colored materials, JOSA 25(11), 1935.
+//! * `[Mallett2019]` I. Mallett and C. Yuksel, Spectral primary decomposition for rendering with sRGB reflectance, EGSR, 2019.
 //! * `[McCamy1992]` C. S. McCamy, Correlated color temperature as an explicit function of chromaticity coordinates, Color
 //!   Res. Appl. 17, 1992.
+//! * `[Meng2015]` J. Meng et al., Physically meaningful rendering using tristimulus colours, CGF 34(4), 2015.
 //! * `[Mitchell1990]` D. P. Mitchell, Robust ray intersection with interval arithmetic, Graphics Interface, 1990.
 //! * `[Moore2009]` R. E. Moore et al., Introduction to Interval Analysis, 2009.
 //! * `[Moroney2002]` N. Moroney et al., The CIECAM02 color appearance model, CIC 10, 2002.
 //! * `[Nikon2018]` Nikon, N-Log specification document 1.0, 2018.
 //! * `[Ohno2005]` Y. Ohno, Spectral design considerations for white LED color rendering, Opt. Eng. 44, 2005.
 //! * `[Ohno2014]` Y. Ohno, Practical use and calculation of CCT and Duv, LEUKOS 10(1), 2014.
+//! * `[Otsu2018]` H. Otsu et al., Reproducing spectral reflectances from tristimulus colours, CGF 37(6), 2018.
 //! * `[Ottosson2020]` B. Ottosson, A perceptual color space for image processing, 2020.
 //! * `[PBRT4]` M. Pharr, W. Jakob, G. Humphreys, Physically Based Rendering, 4th edition, 2023.
 //! * `[Panasonic2014]` Panasonic, VARICAM V-Log and V-Gamut, 2014.
@@ -163,6 +168,7 @@
 //!   space, Opt. Express 29, 2021.
 //! * `[Schoen1970]` A. H. Schoen, Infinite periodic minimal surfaces without self-intersections, NASA TN D-5541, 1970.
 //! * `[ShirleyChiu1997]` P. Shirley and K. Chiu, A low distortion map between disk and square, JGT 2(3), 1997.
+//! * `[Smits1999]` B. Smits, An RGB-to-spectrum conversion for reflectances, JGT 4(4), 1999.
 //! * `[Sony2016]` Sony, S-Log white paper 2012; Technical summary for S-Gamut3.Cine/S-Log3 and S-Gamut3/S-Log3, 2016.
 //! * `[Spaulding2000]` K. E. Spaulding et al., Reference input/output medium metric RGB color encodings, PICS, 2000.
 //! * `[Steele2014]` G. L. Steele et al., Fast splittable pseudorandom number generators, OOPSLA, 2014.
@@ -177,6 +183,7 @@
 //! * `[Wald2007]` I. Wald, On fast construction of SAH-based bounding volume hierarchies, IEEE RT, 2007.
 //! * `[Wald2008]` I. Wald et al., Getting rid of packets, IEEE RT, 2008.
 //! * `[Wavefront1995]` Wavefront Technologies, Advanced Visualizer Manual, appendix B1, object files, 1995.
+//! * `[Wendland1995]` H. Wendland, Piecewise polynomial, positive definite and compactly supported radial functions, 1995.
 //! * `[Wilkie2014]` A. Wilkie et al., Hero wavelength spectral sampling, CGF 33(4), 2014.
 //! * `[Woop2013]` S. Woop, C. Benthin, I. Wald, Watertight ray/triangle intersection, JCGT 2(1), 2013.
 //! * `[Ylitie2017]` H. Ylitie et al., Efficient incoherent ray traversal on GPUs through compressed wide BVHs, HPG, 2017.

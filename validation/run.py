@@ -56,13 +56,6 @@ def ensure_environment():
     stamp.write_text(digest + "\n")
 
 
-def color_values(request):
-    """What the crate's colour library answers; the example is brought up to date first."""
-    command = ["cargo", "run", "--profile", PROFILE, "--quiet", "--example", "color_values"]
-    done = subprocess.run(command, cwd=ROOT, input=json.dumps(request), stdout=subprocess.PIPE, text=True, check=True)
-    return json.loads(done.stdout)
-
-
 def evaluate_all(requests):
     """Values of the library's functions at lists of arguments; the example is brought up to date first."""
     command = ["cargo", "run", "--profile", PROFILE, "--quiet", "--example", "evaluate"]
@@ -101,9 +94,7 @@ def all_rows(only, frozen):
 
 
 def other_rows():
-    import rgb
-
-    rows = rgb.check(color_values(rgb.request()))
+    rows = []
     if (HERE / "glass_check.py").exists():
         import glass_check
 

@@ -24,7 +24,6 @@ mod observer;
 pub mod quality;
 mod rgb;
 mod root;
-mod smoothest;
 pub mod space;
 pub mod sums;
 mod table;

@@ -26,15 +26,21 @@ pub enum Role {
 pub struct Spectra<'a> {
     description: &'a SceneDescription,
     tables: Vec<SpectrumTable>,
+    warnings: Vec<String>,
 }
 
 impl<'a> Spectra<'a> {
     pub fn new(description: &'a SceneDescription) -> Self {
-        Self { description, tables: Vec::new() }
+        Self { description, tables: Vec::new(), warnings: Vec::new() }
     }
 
     pub fn into_tables(self) -> Vec<SpectrumTable> {
         self.tables
+    }
+
+    /// What deserves a look about the spectra resolved so far.
+    pub fn take_warnings(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.warnings)
     }
 
     /// Adds `factor` times a spectrum.
@@ -54,7 +60,7 @@ impl<'a> Spectra<'a> {
     }
 
     /// The function that a description stands for, in the user's units.
-    pub fn resolve(&self, spectrum: &SpectrumDescription, role: Role) -> Result<Spectrum> {
+    pub fn resolve(&mut self, spectrum: &SpectrumDescription, role: Role) -> Result<Spectrum> {
         let function = self.resolve_unscaled(spectrum, role)?.scaled(spectrum.scale);
         let (min, max) = function.range();
         let legal = match role {
@@ -73,13 +79,14 @@ impl<'a> Spectra<'a> {
         Err(Error::new(ErrorKind::OutOfRange, message).at(spectrum.at.clone()))
     }
 
-    fn resolve_unscaled(&self, spectrum: &SpectrumDescription, role: Role) -> Result<Spectrum> {
+    fn resolve_unscaled(&mut self, spectrum: &SpectrumDescription, role: Role) -> Result<Spectrum> {
         let at = |key: &str| format!("{}.{key}", spectrum.at);
         match &spectrum.kind {
             SpectrumKind::Constant(value) => Ok(Spectrum::Constant(*value)),
             SpectrumKind::Named(name) => {
-                let (_, target) = self.description.spectra.iter().find(|(n, _)| n == name).ok_or_else(|| {
-                    let names = self.description.spectra.iter().map(|(n, _)| n.as_str());
+                let description = self.description;
+                let (_, target) = description.spectra.iter().find(|(n, _)| n == name).ok_or_else(|| {
+                    let names = description.spectra.iter().map(|(n, _)| n.as_str());
                     let message = format!("unknown spectrum \"{name}\"");
                     Error::new(ErrorKind::UnknownName, message).at(spectrum.at.clone()).nearest(name, names)
                 })?;
@@ -96,7 +103,7 @@ impl<'a> Spectra<'a> {
             SpectrumKind::Rgb { rgb, space } => {
                 let space = RgbSpace::by_name(space).map_err(|e| e.at(at("space")))?;
                 let upsampled = match role {
-                    Role::Reflectance => upsample::reflectance(*rgb, space),
+                    Role::Reflectance => self.reflectance_of_color(*rgb, space, &at("rgb")),
                     Role::Emission => upsample::emission(*rgb, space),
                     Role::Coefficient => Err(Error::new(
                         ErrorKind::WrongType,
@@ -119,9 +126,70 @@ impl<'a> Spectra<'a> {
             }
         }
     }
+
+    /// The natural reflectance of a colour, or of the nearest that can be one, with a warning.
+    fn reflectance_of_color(&mut self, rgb: [f64; 3], space: &RgbSpace, at: &str) -> Result<Spectrum> {
+        check_reflectance_components(rgb)?;
+        let projected = upsample::projected(rgb, space)?;
+        if projected.is_changed(rgb) {
+            let [r, g, b] = projected.rgb;
+            let warning = format!(
+                "{}: {at}: nothing that reflects at most all light has the colour {rgb:?} of {} under D65; rendered as \
+                 [{r:.4}, {g:.4}, {b:.4}], of the same luminance and {:.0} % of the saturation",
+                self.description.file.display(),
+                space.name,
+                100.0 * projected.saturation
+            );
+            if !self.warnings.contains(&warning) {
+                self.warnings.push(warning);
+            }
+        }
+        Ok(projected.spectrum)
+    }
+}
+
+/// Components of a reflectance outside of [0, 1] are a mistake of whoever wrote them; a colour that no reflectance has may
+/// come from the width of the space.
+fn check_reflectance_components(rgb: [f64; 3]) -> Result<()> {
+    match rgb.into_iter().find(|component| !(0.0..=1.0).contains(component)) {
+        None => Ok(()),
+        Some(component) => {
+            let message = format!("{component} in {rgb:?}; expected components of a reflectance within [0, 1]");
+            Err(Error::new(ErrorKind::OutOfRange, message))
+        }
+    }
 }
 
 /// An error in a file that the scene names: told from where the scene names it.
 pub fn in_referenced_file(error: Error, path: &Path, at: String) -> Error {
     Error::new(error.kind, error.in_file(path).to_string()).at(at)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::{compile, description};
+
+    fn compiled(color: &str) -> crate::Result<crate::scene::Compiled> {
+        let text = format!(
+            r#"{{ "camera": {{ "type": "perspective", "from": [0, 0, 4], "to": [0, 0, 0] }},
+                  "film": {{ "width": 4, "height": 4 }},
+                  "materials": {{ "paint": {{ "type": "diffuse", "reflectance": {color} }} }},
+                  "objects": [ {{ "shape": {{ "type": "sphere", "center": [0, 0, 0], "radius": 1 }}, "material": "paint" }},
+                               {{ "shape": {{ "type": "sphere", "center": [2, 0, 0], "radius": 1 }}, "material": "paint" }} ],
+                  "environment": {{ "radiance": {{ "illuminant": "D65" }} }} }}"#
+        );
+        compile(&description::parse_str(&text, "test.json".as_ref())?.description)
+    }
+
+    #[test]
+    fn colors_without_a_reflectance_are_projected_with_a_warning() {
+        let scene = compiled(r#"{ "rgb": [0, 1, 0], "space": "rec2020" }"#).unwrap();
+        assert_eq!(scene.warnings.len(), 1, "{:?}", scene.warnings);
+        let warning = &scene.warnings[0];
+        assert!(warning.starts_with("test.json: materials.paint.reflectance.rgb: nothing that reflects"), "{warning}");
+        let possible = compiled(r#"{ "rgb": [0.1, 0.5, 0.2], "space": "rec2020" }"#).unwrap();
+        assert!(possible.warnings.is_empty(), "{:?}", possible.warnings);
+        let error = compiled(r#"{ "rgb": [0, 1.5, 0] }"#).unwrap_err();
+        assert_eq!(error.place, "materials.paint.reflectance.rgb", "{error}");
+    }
 }
