@@ -469,6 +469,61 @@ fn upsampled_colours_come_back() {
 }
 
 #[test]
+fn methods_say_how_far_off_they_are() {
+    let folder = Folder::new();
+    let upsample = |args: &[&str]| folder.abbe(&[&["upsample", "0.9", "0.2", "0.1"], args].concat());
+    let mut spectra = Vec::new();
+    for method in ["natural", "smoothest", "jakob-hanika", "mallett", "smits", "smits-linear", "otsu", "meng"] {
+        let run = upsample(&["--method", method, "--json"]);
+        let answer = json_of(&run);
+        assert_eq!(answer["method"], method);
+        let (error, warnings) = (numbers(&answer["round_trip"]["largest_error"])[0], &answer["warnings"]);
+        let is_exact = ["natural", "smoothest", "jakob-hanika"].contains(&method);
+        assert!(if is_exact { error < 1e-9 } else { error < 0.1 }, "{method}: {error}");
+        assert_eq!(warnings.as_array().unwrap().iter().any(|w| w["name"] == "color_missed"), error > 1e-6, "{answer}");
+        assert_eq!(run.err.contains("[color_missed]"), error > 1e-6, "{run:?}");
+        spectra.push(numbers(&answer["values"]));
+    }
+    assert!((1..8).all(|i| spectra[i] != spectra[0]), "two methods are the same");
+    assert_eq!(upsample(&[]).silently(), upsample(&["--method", "natural"]).silently());
+    upsample(&["--method", "smit"]).fails(2, &["'smit'", "'smits'"]);
+    upsample(&["--method", "smits", "-q"]).silently();
+}
+
+#[test]
+fn colours_without_a_reflectance_are_projected_on_demand() {
+    let folder = Folder::new();
+    let green = ["upsample", "0", "1", "0", "--space", "rec2020"];
+    folder.abbe(&green).fails(3, &["cannot be a reflectance", "--project"]);
+    let run = folder.abbe(&[&green[..], &["--project", "--json"]].concat());
+    let answer = json_of(&run);
+    assert!(
+        run.err.starts_with("warning: no reflectance has this colour") && run.err.ends_with("[projected]\n"),
+        "{run:?}"
+    );
+    let kept = numbers(&answer["saturation_kept"])[0];
+    assert!(kept > 0.5 && kept < 1.0, "{answer}");
+    assert!(numbers(&answer["values"]).iter().all(|v| (0.0..=1.0).contains(v)));
+    // What needs no projection is what it is without.
+    let plain = ["upsample", "#336699"];
+    assert_eq!(folder.abbe(&[&plain[..], &["--project"]].concat()).silently(), folder.abbe(&plain).silently());
+}
+
+#[test]
+fn emissions_can_be_tinted_lamps() {
+    let folder = Folder::new();
+    let white = folder.abbe(&["upsample", "1", "1", "1", "--as", "emission", "--illuminant", "A"]);
+    let args = ["spectrum", "-", "--json"];
+    let answer = json_of(&folder.abbe_with_stdin(&args, white.silently()));
+    assert_eq!(answer["as"], "emission");
+    // White is the lamp itself: CIE A at Y = 1.
+    let one = &answer["spectra"][0];
+    assert!((numbers(&one["xyz"])[1] - 1.0).abs() < 1e-12 && (numbers(&one["xy"])[0] - 0.44758).abs() < 5e-5, "{one}");
+    folder.abbe(&["upsample", "1", "0", "0", "--illuminant", "A"]).fails(2, &["--as emission"]);
+    folder.abbe(&["upsample", "1", "0", "0", "--as", "emission", "--method", "otsu"]).fails(2, &["--method"]);
+}
+
+#[test]
 fn upsample_writes_files_and_json() {
     let folder = Folder::new();
     let run = folder.abbe(&["upsample", "#336699", "-o", "out.csv", "--plot", "out.svg", "--json"]);

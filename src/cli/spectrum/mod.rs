@@ -11,7 +11,7 @@ use crate::io::spectrum_file::{self, Finding, NamedSpectrum, Quantity, SpectrumF
 use crate::spectrum::PiecewiseLinear;
 use crate::{Error, ErrorKind, Result};
 use clap::builder::PossibleValuesParser;
-use light::Lamp;
+pub(super) use light::Lamp;
 use measure::{Measurement, Viewing, adaptation, adaptation_names};
 use std::path::{Path, PathBuf};
 

@@ -118,8 +118,11 @@ fn table_row(one: &Measured) -> [String; 10] {
     [one.spectrum.name.clone(), x, y, z, cx, cy, l, a, b, format!("{}{moved}", hex(m.rgb8))]
 }
 
+/// Six digits each; what is rounding beside the largest is 0.
 fn triple(values: [f64; 3]) -> String {
-    values.map(|value| format!("{:>11}", significant(value, 6))).join(" ").trim_start().to_owned()
+    let largest = values.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let shown = values.map(|value| if value.abs() < 1e-12 * largest { 0.0 } else { value });
+    shown.map(|value| format!("{:>11}", significant(value, 6))).join(" ").trim_start().to_owned()
 }
 
 fn triple_of(values: [f64; 3], digits: usize) -> String {
@@ -305,6 +308,7 @@ mod tests {
         );
         assert_eq!([1e-5, 2.5e8, 1_234_567.8].map(six), ["1.00000e-5", "2.50000e8", "1234568"]);
         assert_eq!(triple([0.5, -12.0, 1e-9]), "0.500000    -12.0000  1.00000e-9");
+        assert_eq!(triple([1.0, -1e-17, 0.0]), "1.00000           0           0");
     }
 
     #[test]
