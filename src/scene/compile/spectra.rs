@@ -9,6 +9,7 @@ use crate::scene::SpectrumId;
 use crate::scene::description::{SceneDescription, SpectrumDescription, SpectrumKind};
 use crate::spectrum::{PiecewiseLinear, Spectrum, SpectrumTable};
 use crate::{Error, ErrorKind, Result};
+use std::cell::RefCell;
 use std::path::Path;
 
 /// What a spectrum stands for; decides what an RGB colour means there and which values are legal.
@@ -26,12 +27,13 @@ pub enum Role {
 pub struct Spectra<'a> {
     description: &'a SceneDescription,
     tables: Vec<SpectrumTable>,
-    warnings: Vec<String>,
+    /// Resolving does not change the tables, but it may notice something.
+    warnings: RefCell<Vec<String>>,
 }
 
 impl<'a> Spectra<'a> {
     pub fn new(description: &'a SceneDescription) -> Self {
-        Self { description, tables: Vec::new(), warnings: Vec::new() }
+        Self { description, tables: Vec::new(), warnings: RefCell::default() }
     }
 
     pub fn into_tables(self) -> Vec<SpectrumTable> {
@@ -39,8 +41,8 @@ impl<'a> Spectra<'a> {
     }
 
     /// What deserves a look about the spectra resolved so far.
-    pub fn take_warnings(&mut self) -> Vec<String> {
-        std::mem::take(&mut self.warnings)
+    pub fn take_warnings(&self) -> Vec<String> {
+        self.warnings.take()
     }
 
     /// Adds `factor` times a spectrum.
@@ -60,7 +62,7 @@ impl<'a> Spectra<'a> {
     }
 
     /// The function that a description stands for, in the user's units.
-    pub fn resolve(&mut self, spectrum: &SpectrumDescription, role: Role) -> Result<Spectrum> {
+    pub fn resolve(&self, spectrum: &SpectrumDescription, role: Role) -> Result<Spectrum> {
         let function = self.resolve_unscaled(spectrum, role)?.scaled(spectrum.scale);
         let (min, max) = function.range();
         let legal = match role {
@@ -79,14 +81,13 @@ impl<'a> Spectra<'a> {
         Err(Error::new(ErrorKind::OutOfRange, message).at(spectrum.at.clone()))
     }
 
-    fn resolve_unscaled(&mut self, spectrum: &SpectrumDescription, role: Role) -> Result<Spectrum> {
+    fn resolve_unscaled(&self, spectrum: &SpectrumDescription, role: Role) -> Result<Spectrum> {
         let at = |key: &str| format!("{}.{key}", spectrum.at);
         match &spectrum.kind {
             SpectrumKind::Constant(value) => Ok(Spectrum::Constant(*value)),
             SpectrumKind::Named(name) => {
-                let description = self.description;
-                let (_, target) = description.spectra.iter().find(|(n, _)| n == name).ok_or_else(|| {
-                    let names = description.spectra.iter().map(|(n, _)| n.as_str());
+                let (_, target) = self.description.spectra.iter().find(|(n, _)| n == name).ok_or_else(|| {
+                    let names = self.description.spectra.iter().map(|(n, _)| n.as_str());
                     let message = format!("unknown spectrum \"{name}\"");
                     Error::new(ErrorKind::UnknownName, message).at(spectrum.at.clone()).nearest(name, names)
                 })?;
@@ -128,8 +129,7 @@ impl<'a> Spectra<'a> {
     }
 
     /// The natural reflectance of a colour, or of the nearest that can be one, with a warning.
-    fn reflectance_of_color(&mut self, rgb: [f64; 3], space: &RgbSpace, at: &str) -> Result<Spectrum> {
-        check_reflectance_components(rgb)?;
+    fn reflectance_of_color(&self, rgb: [f64; 3], space: &RgbSpace, at: &str) -> Result<Spectrum> {
         let projected = upsample::projected(rgb, space)?;
         if projected.is_changed(rgb) {
             let [r, g, b] = projected.rgb;
@@ -140,23 +140,12 @@ impl<'a> Spectra<'a> {
                 space.name,
                 100.0 * projected.saturation
             );
-            if !self.warnings.contains(&warning) {
-                self.warnings.push(warning);
+            let mut warnings = self.warnings.borrow_mut();
+            if !warnings.contains(&warning) {
+                warnings.push(warning);
             }
         }
         Ok(projected.spectrum)
-    }
-}
-
-/// Components of a reflectance outside of [0, 1] are a mistake of whoever wrote them; a colour that no reflectance has may
-/// come from the width of the space.
-fn check_reflectance_components(rgb: [f64; 3]) -> Result<()> {
-    match rgb.into_iter().find(|component| !(0.0..=1.0).contains(component)) {
-        None => Ok(()),
-        Some(component) => {
-            let message = format!("{component} in {rgb:?}; expected components of a reflectance within [0, 1]");
-            Err(Error::new(ErrorKind::OutOfRange, message))
-        }
     }
 }
 
@@ -190,6 +179,6 @@ mod tests {
         let possible = compiled(r#"{ "rgb": [0.1, 0.5, 0.2], "space": "rec2020" }"#).unwrap();
         assert!(possible.warnings.is_empty(), "{:?}", possible.warnings);
         let error = compiled(r#"{ "rgb": [0, 1.5, 0] }"#).unwrap_err();
-        assert_eq!(error.place, "materials.paint.reflectance.rgb", "{error}");
+        assert_eq!(error.place, "materials.paint.reflectance.rgb[1]", "{error}");
     }
 }
