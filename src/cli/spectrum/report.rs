@@ -74,7 +74,8 @@ fn dominant(d: &Dominant) -> String {
 }
 
 fn light_rows(light: &LightFacts) -> Vec<(&'static str, String)> {
-    let duv = light.duv.map(|duv| format!("Duv {duv:+.5}"));
+    // Adding 0 to what has been rounded: no negative zero.
+    let duv = light.duv.map(|duv| format!("Duv {:+.5}", (duv * 1e5).round() / 1e5 + 0.0));
     let temperature = match (light.cct_kelvin, duv) {
         (Some(kelvin), Some(duv)) => format!("{kelvin:.1} K, {duv}"),
         (_, Some(duv)) => format!("none ({duv} is too far from the Planckian locus)"),
