@@ -3,6 +3,7 @@
 use super::light::{Lamp, LightFacts};
 use crate::color::adaptation::ConeTransform;
 use crate::color::chroma::{Dominant, dominant_wavelength};
+use crate::color::gamut::{self, GamutMapper, GamutMethod};
 use crate::color::space::lab_from_xyz;
 use crate::color::{LinearRgb, Observer, RgbSpace, chromaticity, xyz_of_emission, xyz_of_reflectance};
 use crate::io::spectrum_file::Quantity;
@@ -133,10 +134,13 @@ fn scale_to_one(linear: DVec3) -> f64 {
 /// Within the gamut, but for what rounding adds to white or to a primary.
 fn is_in_gamut(linear: DVec3) -> bool {
     const ROUNDING: f64 = 1e-9;
-    linear.min_element() >= -ROUNDING && linear.max_element() <= 1.0 + ROUNDING
+    gamut::excess(LinearRgb(linear)) <= ROUNDING
 }
 
+/// In 8 bits: as it is inside the gamut, else with less chroma at the same lightness and hue.
 fn bytes(space: &RgbSpace, linear: DVec3) -> [u8; 3] {
-    let inside = linear.clamp(DVec3::ZERO, DVec3::ONE);
-    space.encode(LinearRgb(inside)).to_array().map(|code| (255.0 * code).round() as u8)
+    let mapper = || GamutMapper::new(space, GamutMethod::Desaturate);
+    let inside = if is_in_gamut(linear) { linear } else { mapper().map(LinearRgb(linear)).0 };
+    let encoded = space.encode(LinearRgb(inside.clamp(DVec3::ZERO, DVec3::ONE)));
+    encoded.to_array().map(|code| (255.0 * code).round() as u8)
 }

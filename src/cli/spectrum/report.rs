@@ -96,7 +96,9 @@ fn table(viewing: &Viewing, measured: &[Measured], with_swatches: bool) -> Strin
     let rows: Vec<[String; 10]> = std::iter::once(head).chain(measured.iter().map(table_row)).collect();
     let widths: Vec<usize> =
         (0..10).map(|c| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or_default()).collect();
-    let mut text = format!("{}, space {}\n", circumstances(viewing), viewing.space.name);
+    let is_moved = measured.iter().any(|one| !one.measurement.in_gamut);
+    let remark = if is_moved { "; * moved into the gamut" } else { "" };
+    let mut text = format!("{}, space {}{remark}\n", circumstances(viewing), viewing.space.name);
     for (i, row) in rows.iter().enumerate() {
         if with_swatches {
             let color = i.checked_sub(1).map(|i| measured[i].measurement.srgb8);
