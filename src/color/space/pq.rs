@@ -58,12 +58,12 @@ impl QuantizedSpace {
         }
     }
 
-    fn from_xyz(&self, xyz: DVec3) -> DVec3 {
+    fn encode(&self, xyz: DVec3) -> DVec3 {
         let cones = (self.cones_from_xyz * xyz).to_array();
         self.opponent_from_codes * DVec3::from(cones.map(|cone| quantize(cone, self.m_2)))
     }
 
-    fn to_xyz(&self, opponent: DVec3) -> DVec3 {
+    fn decode(&self, opponent: DVec3) -> DVec3 {
         let codes = (self.codes_from_opponent * opponent).to_array();
         self.xyz_from_cones * DVec3::from(codes.map(|code| dequantize(code, self.m_2)))
     }
@@ -87,12 +87,12 @@ fn ictcp_cones_from_xyz() -> DMat3 {
 
 /// ICtCp of absolute XYZ, by the quantiser of BT.2100 \[BT2100\]; greys have Ct = Cp = 0.
 pub fn ictcp_from_xyz(xyz_cd_m2: DVec3) -> DVec3 {
-    ICTCP.from_xyz(xyz_cd_m2)
+    ICTCP.encode(xyz_cd_m2)
 }
 
 /// Inverse of [`ictcp_from_xyz`], cd/m².
 pub fn xyz_from_ictcp(ictcp: DVec3) -> DVec3 {
-    ICTCP.to_xyz(ictcp)
+    ICTCP.decode(ictcp)
 }
 
 static ICACB: LazyLock<QuantizedSpace> = LazyLock::new(|| {
@@ -103,12 +103,12 @@ static ICACB: LazyLock<QuantizedSpace> = LazyLock::new(|| {
 
 /// ICaCb of absolute XYZ \[Froehlich2017\].
 pub fn icacb_from_xyz(xyz_cd_m2: DVec3) -> DVec3 {
-    ICACB.from_xyz(xyz_cd_m2)
+    ICACB.encode(xyz_cd_m2)
 }
 
 /// Inverse of [`icacb_from_xyz`], cd/m².
 pub fn xyz_from_icacb(icacb: DVec3) -> DVec3 {
-    ICACB.to_xyz(icacb)
+    ICACB.decode(icacb)
 }
 
 static JZAZBZ: LazyLock<QuantizedSpace> = LazyLock::new(|| {
@@ -128,7 +128,7 @@ const JZAZBZ_D_0: f64 = 1.629_549_953_282_156_6e-11;
 
 /// Jz, az, bz of absolute XYZ \[Safdar2017\]; black is 0, and Jz of 10 000 cd/m² is near 1.
 pub fn jzazbz_from_xyz(xyz_cd_m2: DVec3) -> DVec3 {
-    let opponent = JZAZBZ.from_xyz(xyz_cd_m2);
+    let opponent = JZAZBZ.encode(xyz_cd_m2);
     let i = opponent.x;
     let lightness = (1.0 + JZAZBZ_D) * i / (1.0 + JZAZBZ_D * i) - JZAZBZ_D_0;
     DVec3::new(lightness, opponent.y, opponent.z)
@@ -138,7 +138,7 @@ pub fn jzazbz_from_xyz(xyz_cd_m2: DVec3) -> DVec3 {
 pub fn xyz_from_jzazbz(jzazbz: DVec3) -> DVec3 {
     let lightness = jzazbz.x + JZAZBZ_D_0;
     let i = lightness / (1.0 + JZAZBZ_D - JZAZBZ_D * lightness);
-    JZAZBZ.to_xyz(DVec3::new(i, jzazbz.y, jzazbz.z))
+    JZAZBZ.decode(DVec3::new(i, jzazbz.y, jzazbz.z))
 }
 
 #[cfg(test)]
