@@ -25,7 +25,6 @@ mod observer;
 pub mod quality;
 mod rgb;
 mod root;
-mod smoothest;
 pub mod space;
 pub mod sums;
 mod table;

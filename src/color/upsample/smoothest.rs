@@ -2,11 +2,13 @@
 //!
 //! A spectrum is `link(z)` at knots 1 nm apart. Of all z with ∑ wⱼ link(zⱼ) = target (three equations, the colour) we
 //! take the one with the least ∑ (zⱼ₊₁ − zⱼ)². With the logistic link this is the "least hyperbolic tangent slope
-//! squared" of \[Burns2019\]; with the exponential one it is the positive, scale-free curve for emissions.
+//! squared" of \[Burns2019\]; with the exponential one it is the positive, scale-free curve for emissions. Around a given
+//! curve it is z minus that curve which is the smoothest: the least change, in this sense, that gives the colour.
 //!
 //! Gauss–Newton steps (linear in the number of knots, since the smoothest curve under linear constraints is a double
 //! running sum) come near the solution; Newton steps on the whole system (tridiagonal) finish it to rounding.
 
+use super::linear::{solve_dense, solve_tridiagonal};
 use crate::math;
 use glam::DVec3;
 
@@ -47,8 +49,17 @@ impl Link {
         }
     }
 
+    /// The values of a curve; those of the logistic link never round to 0 or 1.
+    pub(super) fn values(self, z: &[f64]) -> Vec<f64> {
+        let bounds = match self {
+            Self::Logistic => (f64::MIN_POSITIVE, 1.0 - 0.5 * f64::EPSILON),
+            Self::Exponential => (0.0, f64::INFINITY),
+        };
+        z.iter().map(|&z| self.eval(z)[0].clamp(bounds.0, bounds.1)).collect()
+    }
+
     /// The z of a value inside the link's range.
-    fn inverse(self, value: f64) -> f64 {
+    pub(super) fn inverse(self, value: f64) -> f64 {
         match self {
             Self::Exponential => math::ln(value),
             Self::Logistic => math::ln(value / (1.0 - value)),
@@ -68,16 +79,25 @@ impl Link {
 ///
 /// `None` if there is no such spectrum (or none is found): the colour lies outside of what the link can reach.
 pub(super) fn solve(weights: &[DVec3], target: DVec3, link: Link) -> Option<Vec<f64>> {
+    let z = solve_curve(weights, target, link, None)?;
+    Some(link.values(&z))
+}
+
+/// The z whose difference from `around` (or from 0) is the smoothest, with link(z) of the target's colour.
+pub(super) fn solve_curve(weights: &[DVec3], target: DVec3, link: Link, around: Option<&[f64]>) -> Option<Vec<f64>> {
     let scale = target.abs().max_element();
     if !(scale > 0.0 && scale.is_finite()) {
         return None;
     }
-    let mean = target.element_sum() / 3.0;
     // Everything is relative to the target's size, so that dark colours are solved as well as bright ones.
     let weights: Vec<DVec3> = weights.iter().map(|&w| w / scale).collect();
-    let problem = Problem { weights: &weights, target: target / scale, link };
-    let z = problem.solve(vec![link.inverse(link.start(mean)); weights.len()])?;
-    Some(z.into_iter().map(|z| link.eval(z)[0]).collect())
+    let start = match around {
+        Some(_) => 0.0,
+        None => link.inverse(link.start(target.element_sum() / 3.0)),
+    };
+    let problem = Problem { weights: &weights, target: target / scale, link, around };
+    let y = problem.solve(vec![start; weights.len()])?;
+    Some(problem.curve(&y).collect())
 }
 
 /// Weights and target divided by the target's largest component.
@@ -85,6 +105,7 @@ struct Problem<'a> {
     weights: &'a [DVec3],
     target: DVec3,
     link: Link,
+    around: Option<&'a [f64]>,
 }
 
 /// The constraints near a curve.
@@ -97,25 +118,25 @@ struct Linearization {
     curvatures: Vec<DVec3>,
 }
 
-/// A curve and the multipliers of its three constraints.
+/// A difference from the curve around which to be smooth, and the multipliers of the three constraints.
 struct Iterate {
-    z: Vec<f64>,
+    y: Vec<f64>,
     multipliers: DVec3,
 }
 
 impl Problem<'_> {
-    fn solve(&self, z: Vec<f64>) -> Option<Vec<f64>> {
-        let mut at = Iterate { z, multipliers: DVec3::ZERO };
-        let mut error = self.color_error(&at.z);
+    fn solve(&self, y: Vec<f64>) -> Option<Vec<f64>> {
+        let mut at = Iterate { y, multipliers: DVec3::ZERO };
+        let mut error = self.color_error(&at.y);
         for step in 0..MAX_STEPS {
-            let lin = self.linearize(&at.z);
+            let lin = self.linearize(&at.y);
             if step > 0 && error < NEWTON_REGION {
                 let norm = optimality(&at, &lin);
                 if norm < SOLVED {
                     break;
                 }
                 if let Some(next) = self.newton_step(&at, &lin, norm) {
-                    error = self.color_error(&next.z);
+                    error = self.color_error(&next.y);
                     at = next;
                     continue;
                 }
@@ -125,21 +146,26 @@ impl Problem<'_> {
                 None => break,
             }
         }
-        (error <= COLOR_TOLERANCE).then_some(at.z)
+        (error <= COLOR_TOLERANCE).then_some(at.y)
     }
 
-    fn color(&self, z: &[f64]) -> DVec3 {
-        self.weights.iter().zip(z).map(|(&w, &z)| w * self.link.eval(z)[0]).sum()
+    /// z at the knots.
+    fn curve(&self, y: &[f64]) -> impl Iterator<Item = f64> {
+        y.iter().enumerate().map(|(j, y)| self.around.map_or(*y, |around| around[j] + y))
     }
 
-    fn color_error(&self, z: &[f64]) -> f64 {
-        (self.target - self.color(z)).abs().max_element()
+    fn color(&self, y: &[f64]) -> DVec3 {
+        self.weights.iter().zip(self.curve(y)).map(|(&w, z)| w * self.link.eval(z)[0]).sum()
     }
 
-    fn linearize(&self, z: &[f64]) -> Linearization {
+    fn color_error(&self, y: &[f64]) -> f64 {
+        (self.target - self.color(y)).abs().max_element()
+    }
+
+    fn linearize(&self, y: &[f64]) -> Linearization {
         let mut color = DVec3::ZERO;
-        let (mut slopes, mut curvatures) = (Vec::with_capacity(z.len()), Vec::with_capacity(z.len()));
-        for (&weight, &z) in self.weights.iter().zip(z) {
+        let (mut slopes, mut curvatures) = (Vec::with_capacity(y.len()), Vec::with_capacity(y.len()));
+        for (&weight, z) in self.weights.iter().zip(self.curve(y)) {
             let [value, slope, curvature] = self.link.eval(z);
             color += weight * value;
             slopes.push(weight * slope);
@@ -150,14 +176,14 @@ impl Problem<'_> {
 
     /// The smoothest curve under the linearised constraints, approached as far as it lowers the error.
     fn gauss_newton_step(&self, at: &Iterate, lin: &Linearization, error: f64) -> Option<(Iterate, f64)> {
-        let (goal, multipliers) = smoothest_under_linear_constraints(&at.z, lin)?;
+        let (goal, multipliers) = smoothest_under_linear_constraints(&at.y, lin)?;
         let mut fraction = 1.0;
         for _ in 0..MAX_HALVINGS {
-            let z: Vec<f64> = at.z.iter().zip(&goal).map(|(z, goal)| z + fraction * (goal - z)).collect();
-            let next_error = self.color_error(&z);
+            let y: Vec<f64> = at.y.iter().zip(&goal).map(|(y, goal)| y + fraction * (goal - y)).collect();
+            let next_error = self.color_error(&y);
             if next_error < error * (1.0 - 1e-4 * fraction) {
                 let multipliers = at.multipliers.lerp(multipliers, fraction);
-                return Some((Iterate { z, multipliers }, next_error));
+                return Some((Iterate { y, multipliers }, next_error));
             }
             fraction *= 0.5;
         }
@@ -168,7 +194,7 @@ impl Problem<'_> {
     fn newton_step(&self, at: &Iterate, lin: &Linearization, norm: f64) -> Option<Iterate> {
         let gradient = gradient(at, lin);
         // H = (second differences) − ∑ multiplier · curvature; the right-hand sides are −gradient and the three slopes.
-        let last = at.z.len() - 1;
+        let last = at.y.len() - 1;
         let diagonal = lin.curvatures.iter().enumerate().map(|(j, c)| {
             let neighbours = if j == 0 || j == last { 1.0 } else { 2.0 };
             neighbours + REGULARIZATION - at.multipliers.dot(*c)
@@ -189,18 +215,18 @@ impl Problem<'_> {
         }
         let change = DVec3::from(solve_dense(system)?);
         let step = |x: &[f64; 4]| x[0] + DVec3::new(x[1], x[2], x[3]).dot(change);
-        let z = at.z.iter().zip(&solution).map(|(z, x)| z + step(x)).collect();
-        let next = Iterate { z, multipliers: at.multipliers + change };
-        (optimality(&next, &self.linearize(&next.z)) < 0.5 * norm).then_some(next)
+        let y = at.y.iter().zip(&solution).map(|(y, x)| y + step(x)).collect();
+        let next = Iterate { y, multipliers: at.multipliers + change };
+        (optimality(&next, &self.linearize(&next.y)) < 0.5 * norm).then_some(next)
     }
 }
 
-/// Gradient of ½ ∑ (zⱼ₊₁ − zⱼ)² − multipliers · colour.
+/// Gradient of ½ ∑ (yⱼ₊₁ − yⱼ)² − multipliers · colour.
 fn gradient(at: &Iterate, lin: &Linearization) -> Vec<f64> {
-    let last = at.z.len() - 1;
+    let last = at.y.len() - 1;
     let component = |j: usize| {
-        let left = if j > 0 { at.z[j] - at.z[j - 1] } else { 0.0 };
-        let right = if j < last { at.z[j + 1] - at.z[j] } else { 0.0 };
+        let left = if j > 0 { at.y[j] - at.y[j - 1] } else { 0.0 };
+        let right = if j < last { at.y[j + 1] - at.y[j] } else { 0.0 };
         left - right - at.multipliers.dot(lin.slopes[j])
     };
     (0..=last).map(component).collect()
@@ -211,12 +237,12 @@ fn optimality(at: &Iterate, lin: &Linearization) -> f64 {
     gradient(at, lin).iter().map(|g| g * g).sum::<f64>().sqrt() + lin.residual.abs().max_element()
 }
 
-/// The z of least ∑ (zⱼ₊₁ − zⱼ)² that meets the linearised constraints, and its multipliers.
+/// The y of least ∑ (yⱼ₊₁ − yⱼ)² that meets the linearised constraints, and its multipliers.
 ///
 /// Its second differences are a combination of the slopes, so it is a combination of their double running sums plus
 /// a constant: four unknowns, from three constraints and the condition that the slopes' combination sums to 0.
-fn smoothest_under_linear_constraints(z: &[f64], lin: &Linearization) -> Option<(Vec<f64>, DVec3)> {
-    let mut basis = Vec::with_capacity(z.len());
+fn smoothest_under_linear_constraints(y: &[f64], lin: &Linearization) -> Option<(Vec<f64>, DVec3)> {
+    let mut basis = Vec::with_capacity(y.len());
     let (mut height, mut slope_sum) = (DVec3::ZERO, DVec3::ZERO);
     for &slope in &lin.slopes {
         basis.push(height);
@@ -226,9 +252,9 @@ fn smoothest_under_linear_constraints(z: &[f64], lin: &Linearization) -> Option<
     let mean = basis.iter().copied().sum::<DVec3>() / basis.len() as f64;
     let mut right = lin.residual;
     let mut matrix = [DVec3::ZERO; 3];
-    for ((basis, &slope), &z) in basis.iter_mut().zip(&lin.slopes).zip(z) {
+    for ((basis, &slope), &y) in basis.iter_mut().zip(&lin.slopes).zip(y) {
         *basis -= mean;
-        right += slope * z;
+        right += slope * y;
         for (row, s) in matrix.iter_mut().zip(slope.to_array()) {
             *row += *basis * s;
         }
@@ -242,41 +268,6 @@ fn smoothest_under_linear_constraints(z: &[f64], lin: &Linearization) -> Option<
     ])?;
     let multipliers = DVec3::new(x[0], x[1], x[2]);
     Some((basis.iter().map(|b| b.dot(multipliers) + x[3]).collect(), multipliers))
-}
-
-/// Solves T x = r with T of the given diagonal and −1 beside it, for four right-hand sides; `None` if T is singular.
-fn solve_tridiagonal(mut diagonal: Vec<f64>, mut right: Vec<[f64; 4]>) -> Option<Vec<[f64; 4]>> {
-    for j in 1..diagonal.len() {
-        let factor = 1.0 / diagonal[j - 1];
-        diagonal[j] -= factor;
-        right[j] = std::array::from_fn(|k| right[j][k] + factor * right[j - 1][k]);
-    }
-    for j in (0..diagonal.len()).rev() {
-        let after = right.get(j + 1).copied().unwrap_or_default();
-        right[j] = std::array::from_fn(|k| (right[j][k] + after[k]) / diagonal[j]);
-    }
-    right.iter().flatten().all(|x| x.is_finite()).then_some(right)
-}
-
-/// Solves N equations, each a row of N coefficients and the right-hand side, with column pivoting.
-fn solve_dense<const N: usize, const M: usize>(mut rows: [[f64; M]; N]) -> Option<[f64; N]> {
-    for column in 0..N {
-        let pivot = (column..N).max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()))?;
-        rows.swap(column, pivot);
-        let pivot_row = rows[column];
-        for row in &mut rows[column + 1..] {
-            let factor = row[column] / pivot_row[column];
-            for (entry, above) in row.iter_mut().zip(pivot_row) {
-                *entry -= factor * above;
-            }
-        }
-    }
-    let mut x = [0.0; N];
-    for i in (0..N).rev() {
-        let known: f64 = (i + 1..N).map(|k| rows[i][k] * x[k]).sum();
-        x[i] = (rows[i][N] - known) / rows[i][i];
-    }
-    x.iter().all(|x| x.is_finite()).then_some(x)
 }
 
 #[cfg(test)]
@@ -347,17 +338,5 @@ mod tests {
         }
         assert_eq!(Link::Logistic.eval(800.0), [1.0, 0.0, 0.0]);
         assert_eq!(Link::Logistic.eval(-800.0), [0.0, 0.0, 0.0]);
-    }
-
-    #[test]
-    fn small_systems() {
-        let x = solve_dense([[0.0, 2.0, 4.0], [3.0, 1.0, 5.0]]).unwrap();
-        assert_eq!(x, [1.0, 2.0]);
-        assert_eq!(solve_dense([[1.0, 2.0, 1.0], [2.0, 4.0, 1.0]]), None);
-        let x = solve_tridiagonal(vec![2.0, 2.0, 2.0], vec![[1.0; 4], [0.0; 4], [1.0; 4]]).unwrap();
-        for row in x {
-            assert_relative_eq!(row[0], 1.0, max_relative = 1e-15);
-        }
-        assert_eq!(solve_tridiagonal(vec![1.0, 1.0], vec![[1.0; 4]; 2]), None);
     }
 }
