@@ -9,11 +9,15 @@
 //! Tables come from data/, where each file names its source, edition and licence.
 
 pub mod adaptation;
+pub mod chroma;
+pub mod difference;
 pub mod illuminant;
 pub mod integration;
+pub mod lightness;
 mod observer;
 mod rgb;
 mod smoothest;
+pub mod space;
 mod table;
 pub mod upsample;
 mod xyz;
