@@ -59,16 +59,20 @@
 //!
 //! # References
 //!
+//! * `[Andersson2020]` P. Andersson et al., FLIP: a difference evaluator for alternating images, Proc. ACM CGIT 3(2), 2020.
 //! * `[Barr1981]` A. H. Barr, Superquadrics and angle-preserving transformations, IEEE CG&A 1(1), 1981.
 //! * `[BornWolf1999]` M. Born and E. Wolf, Principles of Optics, 7th edition, 1999.
 //! * `[Burley2020]` B. Burley, Practical hash-based Owen scrambling, JCGT 9(4), 2020.
 //! * `[Burns2019]` S. A. Burns, Numerical methods for smoothest reflectance reconstruction, Color Res. Appl. 45, 2019.
 //! * `[CIE15]` CIE 015:2018, Colorimetry, 4th edition.
+//! * `[DLMF]` NIST Digital Library of Mathematical Functions, chapter 8, release 1.2, 2024.
 //! * `[Duff2017]` T. Duff et al., Building an orthonormal basis, revisited, JCGT 6(1), 2017.
+//! * `[Fichet2021]` A. Fichet, R. Pacanowski, A. Wilkie, An OpenEXR layout for spectral images, JCGT 10(3), 2021.
 //! * `[Haines2019]` E. Haines et al., Precision improvements for ray/sphere intersection, Ray Tracing Gems 7, 2019.
 //! * `[Harris1978]` F. J. Harris, On the use of windows for harmonic analysis with the DFT, Proc. IEEE 66(1), 1978.
 //! * `[Heitz2019]` E. Heitz, A low-distortion map between triangle and square, 2019.
 //! * `[Higham2002]` N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
+//! * `[Hyndman1996]` R. J. Hyndman and Y. Fan, Sample quantiles in statistical packages, Am. Stat. 50(4), 1996.
 //! * `[IEC61966]` IEC 61966-2-1, Default RGB colour space – sRGB, 1999.
 //! * `[ISO7944]` ISO 7944, Optics and optical instruments – Reference wavelengths, 1998.
 //! * `[Ize2013]` T. Ize, Robust BVH ray traversal, JCGT 2(2), 2013.
@@ -84,6 +88,8 @@
 //! * `[Quilez2013]` I. Quilez, Smooth minimum, 2013.
 //! * `[Reinhard2002]` E. Reinhard et al., Photographic tone reproduction for digital images, SIGGRAPH, 2002.
 //! * `[Rodrigues1840]` O. Rodrigues, Des lois géométriques qui régissent les déplacements d'un système solide, 1840.
+//! * `[Rousselle2011]` F. Rousselle, C. Knaus, M. Zwicker, Adaptive sampling and reconstruction using greedy error
+//!   minimization, ACM TOG 30(6), 2011.
 //! * `[SI2019]` BIPM, The International System of Units, 9th edition, 2019.
 //! * `[Schoen1970]` A. H. Schoen, Infinite periodic minimal surfaces without self-intersections, NASA TN D-5541, 1970.
 //! * `[ShirleyChiu1997]` P. Shirley and K. Chiu, A low distortion map between disk and square, JGT 2(3), 1997.
@@ -110,6 +116,7 @@ pub mod film;
 pub mod geometry;
 pub mod io;
 pub mod math;
+pub mod metrics;
 pub mod optics;
 pub mod render;
 pub mod sampling;

@@ -75,6 +75,11 @@ pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
 
+/// Natural logarithm of the gamma function of x > 0.
+pub fn ln_gamma(x: f64) -> f64 {
+    libm::lgamma(x)
+}
+
 /// Sine and cosine of an f32 angle in radians.
 pub fn sin_cos_f32(x: f32) -> (f32, f32) {
     libm::sincosf(x)

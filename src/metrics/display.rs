@@ -13,7 +13,8 @@ pub struct Displayed {
 impl Displayed {
     /// From linear XYZ and the factor of the exposure. Pixels that are not finite are shown black.
     pub fn new(xyz: &[Pixel], exposure: f64) -> Self {
-        let shown = |pixel: &Pixel| Some(DVec3::from(*pixel) * exposure).filter(|v| v.is_finite()).unwrap_or(DVec3::ZERO);
+        let shown =
+            |pixel: &Pixel| Some(DVec3::from(*pixel) * exposure).filter(|v| v.is_finite()).unwrap_or(DVec3::ZERO);
         Self { xyz: xyz.iter().map(shown).collect() }
     }
 

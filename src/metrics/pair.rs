@@ -29,7 +29,11 @@ impl<'a> Pair<'a> {
             return bad(format!("{} pixels in rows of {width}; expected a rectangle", test.len()));
         }
         if test.len() != reference.len() {
-            return bad(format!("{} pixels against {} of the reference; expected as many", test.len(), reference.len()));
+            return bad(format!(
+                "{} pixels against {} of the reference; expected as many",
+                test.len(),
+                reference.len()
+            ));
         }
         if let Some(mask) = mask.filter(|mask| mask.len() != test.len()) {
             return bad(format!("a mask of {} pixels for pictures of {}; expected as many", mask.len(), test.len()));
@@ -46,7 +50,8 @@ impl<'a> Pair<'a> {
             .collect();
         let count = counted.iter().filter(|&&c| c).count();
         if count == 0 {
-            let why = if mask.is_some() { "the mask leaves no finite pixel" } else { "no pixel is finite in both pictures" };
+            let why =
+                if mask.is_some() { "the mask leaves no finite pixel" } else { "no pixel is finite in both pictures" };
             return bad(format!("{why}; expected something to compare"));
         }
         let sum: f64 = reference.iter().zip(&counted).filter(|(_, c)| **c).flat_map(|(r, _)| r).sum();

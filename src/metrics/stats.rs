@@ -56,7 +56,8 @@ fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     if x > (a + 1.0) / (a + b + 2.0) {
         return 1.0 - incomplete_beta(1.0 - x, b, a);
     }
-    let log_front = math::ln_gamma(a + b) - math::ln_gamma(a) - math::ln_gamma(b) + a * math::ln(x) + b * math::ln(1.0 - x);
+    let log_front =
+        math::ln_gamma(a + b) - math::ln_gamma(a) - math::ln_gamma(b) + a * math::ln(x) + b * math::ln(1.0 - x);
     let tiny = f64::MIN_POSITIVE;
     let away_from_zero = |v: f64| if v.abs() < tiny { tiny } else { v };
     let (mut c, mut d) = (1.0, 1.0 / away_from_zero(1.0 - (a + b) * x / (a + 1.0)));
@@ -118,7 +119,10 @@ mod tests {
     #[test]
     fn moments_and_quantiles() {
         let values = [4.0, 1.0, 3.0, 2.0];
-        assert_eq!((mean(&values), quantile(&values, 0.0), quantile(&values, 0.5), quantile(&values, 1.0)), (2.5, 1.0, 2.5, 4.0));
+        assert_eq!(
+            (mean(&values), quantile(&values, 0.0), quantile(&values, 0.5), quantile(&values, 1.0)),
+            (2.5, 1.0, 2.5, 4.0)
+        );
         assert_relative_eq!(quantile(&values, 0.9), 3.7, max_relative = 1e-15);
         assert_relative_eq!(standard_deviation(&values), (5.0 / 3.0f64).sqrt(), max_relative = 1e-15);
         assert!(standard_deviation(&[1.0]).is_nan() && quantile(&[], 0.5).is_nan() && mean(&[]).is_nan());
