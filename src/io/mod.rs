@@ -2,6 +2,7 @@
 
 pub mod catalogue;
 pub mod exr;
+pub mod exr_read;
 pub mod mesh;
 mod obj;
 pub mod output;
