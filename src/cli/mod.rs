@@ -1,6 +1,8 @@
 //! Command line: one file a subcommand; the only place that prints, shows progress or exits.
 
+pub mod compare;
 pub mod glass;
+mod heat;
 mod process;
 pub mod render;
 pub mod scene;
@@ -12,6 +14,8 @@ use std::process::ExitCode;
 
 /// Exit code of a render that was interrupted after it had written what it had.
 pub const INTERRUPTED: u8 = 75;
+/// Exit code of a comparison over its threshold.
+pub const OVER_THRESHOLD: u8 = 4;
 
 /// A spectral renderer and colour library.
 #[derive(Debug, Parser)]
@@ -33,8 +37,8 @@ enum Command {
     Explain(NotYet),
     /// Develop an EXR into a PNG (not yet)
     Develop(NotYet),
-    /// Compare two pictures (not yet)
-    Compare(NotYet),
+    /// Compare two EXR pictures, of abbe or any renderer
+    Compare(compare::CompareArgs),
     /// Run time against error (not yet)
     Bench(NotYet),
     /// Colour of a spectrum (not yet)
@@ -79,7 +83,7 @@ fn run(command: &Command) -> Result<ExitCode> {
         Command::Glass(args) => done(glass::run(args)),
         Command::Explain(args) => not_yet("explain", args),
         Command::Develop(args) => not_yet("develop", args),
-        Command::Compare(args) => not_yet("compare", args),
+        Command::Compare(args) => compare::run(args),
         Command::Bench(args) => not_yet("bench", args),
         Command::Spectrum(args) => not_yet("spectrum", args),
         Command::Upsample(args) => not_yet("upsample", args),

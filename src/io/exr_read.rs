@@ -96,9 +96,8 @@ pub fn decode(bytes: &[u8], preference: Preference, layer: Option<&str>) -> Resu
     let mut factors = vec![DVec3::ZERO; header.channels.list.len()];
     candidate.indices().zip(xyz_from_channels).for_each(|(index, column)| factors[index] = column);
     let mut window = Window::new(&header)?;
-    let chunks = reader.filter_chunks(false, |_, tile, block| {
-        block.layer == candidate.part && tile.level_index == Vec2(0, 0)
-    });
+    let chunks =
+        reader.filter_chunks(false, |_, tile, block| block.layer == candidate.part && tile.level_index == Vec2(0, 0));
     for block in chunks.map_err(|e| not_exr(&e))?.sequential_decompressor(false) {
         window.add_block(&block.map_err(|e| not_exr(&e))?, &header.channels, &factors)?;
     }
@@ -160,7 +159,8 @@ fn xyz_from_rgb(c: &Chromaticities) -> Result<DMat3> {
     let directions = DMat3::from_cols_array_2d(&primaries.map(|[x, y]| [x, y, 1.0 - x - y]));
     let amounts = directions.inverse() * xyz_from_xy(point(c.white));
     if !amounts.is_finite() {
-        let message = "the chromaticities span no colours; expected three primaries in a triangle and a white with y > 0";
+        let message =
+            "the chromaticities span no colours; expected three primaries in a triangle and a white with y > 0";
         return Err(Error::new(ErrorKind::FileFormat, message));
     }
     Ok(DMat3::from_cols(directions.x_axis * amounts.x, directions.y_axis * amounts.y, directions.z_axis * amounts.z))
@@ -180,7 +180,8 @@ impl Window {
         if display.size.area() == 0 {
             return Err(Error::new(ErrorKind::FileFormat, "an empty display window; expected pixels to show"));
         }
-        let offset = [(data.0, display.position.0), (data.1, display.position.1)].map(|(a, b)| i64::from(a) - i64::from(b));
+        let offset =
+            [(data.0, display.position.0), (data.1, display.position.1)].map(|(a, b)| i64::from(a) - i64::from(b));
         Ok(Self { size: display.size, offset, xyz: vec![[0.0; 3]; display.size.area()] })
     }
 

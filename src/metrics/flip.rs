@@ -14,7 +14,8 @@ use std::f64::consts::PI;
 pub const FLIP_PIXELS_PER_DEGREE: f64 = 3840.0 * PI / 180.0;
 
 /// Contrast sensitivity of the achromatic channel and the two chromatic ones as sums of a √(π/b) exp(−π² x² / b), x in
-/// degrees: pairs (a, b), table 1 of the paper.
+/// degrees: pairs (a, b), table 1 of the paper. In two dimensions the factor stays √(π/b), as in the authors' programs,
+/// with whose figures ours are compared.
 const SENSITIVITY: [&[(f64, f64)]; 3] = [&[(1.0, 0.0047)], &[(1.0, 0.0053)], &[(34.1, 0.04), (13.5, 0.025)]];
 /// Largest b: all filters end at three of its standard deviations.
 const WIDEST: f64 = 0.04;
@@ -131,7 +132,7 @@ impl Plane {
             let kernel: Vec<f64> = (-radius..=radius)
                 .map(|i| math::exp(-PI * PI * (i * i) as f64 / (pixels_per_degree * pixels_per_degree * b)))
                 .collect();
-            let (weight, area) = (a * PI / b, kernel.iter().sum::<f64>());
+            let (weight, area) = (a * (PI / b).sqrt(), kernel.iter().sum::<f64>());
             total += weight * area * area;
             for (sum, value) in sum.iter_mut().zip(self.convolved(&kernel, &kernel)) {
                 *sum += weight * value;

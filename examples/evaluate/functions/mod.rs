@@ -5,6 +5,7 @@ mod appearance;
 mod chroma;
 mod difference;
 mod integration;
+mod metrics;
 mod optics;
 mod quality;
 mod recovery;
@@ -24,12 +25,13 @@ pub type Answer = Result<Value, Box<dyn Error>>;
 /// A function of one JSON value.
 pub type Function = fn(&Value) -> Answer;
 
-const SUBJECTS: [&[(&str, Function)]; 13] = [
+const SUBJECTS: [&[(&str, Function)]; 14] = [
     adaptation::FUNCTIONS,
     appearance::FUNCTIONS,
     chroma::FUNCTIONS,
     difference::FUNCTIONS,
     integration::FUNCTIONS,
+    metrics::FUNCTIONS,
     optics::FUNCTIONS,
     quality::FUNCTIONS,
     recovery::FUNCTIONS,

@@ -110,8 +110,7 @@ fn candidates(parts: &[Header], part: usize) -> Vec<Candidate> {
 
 fn nothing(parts: &[Header], layer: Option<&str>) -> Error {
     const LISTED: usize = 12;
-    let names: Vec<String> =
-        parts.iter().flat_map(|part| &part.channels.list).map(|c| c.name.to_string()).collect();
+    let names: Vec<String> = parts.iter().flat_map(|part| &part.channels.list).map(|c| c.name.to_string()).collect();
     let mut list = names.iter().take(LISTED).map(String::as_str).collect::<Vec<_>>().join(", ");
     if names.len() > LISTED {
         list += ", …";

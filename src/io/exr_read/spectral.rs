@@ -17,7 +17,8 @@ pub fn emissive_channel(name: &str) -> Option<(&str, f64)> {
     // The unit starts at the first letter that is no exponent's.
     let is_number = |c: char| c.is_ascii_digit() || [',', '+', '-'].contains(&c);
     let unit_at = quantity.char_indices().find(|&(i, c)| {
-        let exponent = c.eq_ignore_ascii_case(&'e') && quantity[i + 1..].starts_with(|d: char| is_number(d) && d != ',');
+        let exponent =
+            c.eq_ignore_ascii_case(&'e') && quantity[i + 1..].starts_with(|d: char| is_number(d) && d != ',');
         !is_number(c) && !exponent
     })?;
     let (number, unit) = quantity.split_at(unit_at.0);
@@ -103,7 +104,9 @@ mod tests {
         is("S0.500THz", "", 599.584916);
         is("S0.5E14Hz", "", 599.584916);
         is("left.S0.400nm", "left.", 400.0);
-        for name in ["S1.550nm", "T.550,0nm", "S0", "S0.", "S0.nm", "S0.550", "S0.550xm", "S0.-5nm", "S0.0nm", "XS0.5nm"] {
+        for name in
+            ["S1.550nm", "T.550,0nm", "S0", "S0.", "S0.nm", "S0.550", "S0.550xm", "S0.-5nm", "S0.0nm", "XS0.5nm"]
+        {
             assert_eq!(emissive_channel(name), None, "{name}");
         }
     }

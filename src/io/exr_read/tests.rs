@@ -5,7 +5,8 @@ type ExrImage = Image<Layers<AnyChannels<FlatSamples>>>;
 
 /// A part with channels of f32 values.
 fn part(name: &str, size: (usize, usize), channels: &[(&str, &[f32])]) -> Layer<AnyChannels<FlatSamples>> {
-    let list = channels.iter().map(|(name, values)| AnyChannel::new(*name, FlatSamples::F32(values.to_vec()))).collect();
+    let list =
+        channels.iter().map(|(name, values)| AnyChannel::new(*name, FlatSamples::F32(values.to_vec()))).collect();
     let attributes = LayerAttributes::named(name);
     Layer::new(Vec2(size.0, size.1), attributes, Encoding::FAST_LOSSLESS, AnyChannels::sort(list))
 }
@@ -44,7 +45,8 @@ fn rgb_by_chromaticities() {
 
     // Primaries X, Y, Z and the equal-energy white: RGB is XYZ.
     let mut image = image(ImageAttributes::with_size(Vec2(2, 1)), vec![part("a", (2, 1), &RGB)]);
-    let [red, green, blue, white] = [(1.0, 0.0), (0.0, 1.0), (0.0, 0.0), (1.0 / 3.0, 1.0 / 3.0)].map(|(x, y)| Vec2(x, y));
+    let [red, green, blue, white] =
+        [(1.0, 0.0), (0.0, 1.0), (0.0, 0.0), (1.0 / 3.0, 1.0 / 3.0)].map(|(x, y)| Vec2(x, y));
     image.attributes.chromaticities = Some(attribute::Chromaticities { red, green, blue, white });
     let (pixels, source) = xyz(&bytes_of(&image));
     assert_eq!(source, Source::Rgb { chromaticities: true });
@@ -61,8 +63,12 @@ fn half_and_integers() {
         AnyChannel::new("Y", FlatSamples::U32(vec![3, 4])),
         AnyChannel::new("Z", FlatSamples::F32(vec![0.0, f32::NAN])),
     ];
-    let layer =
-        Layer::new(Vec2(1, 2), LayerAttributes::default(), Encoding::SMALL_LOSSLESS, AnyChannels::sort(list.into_iter().collect()));
+    let layer = Layer::new(
+        Vec2(1, 2),
+        LayerAttributes::default(),
+        Encoding::SMALL_LOSSLESS,
+        AnyChannels::sort(list.into_iter().collect()),
+    );
     let (pixels, source) = xyz(&file(vec![layer]));
     assert_eq!((source, pixels[0]), (Source::Xyz, DVec3::new(0.5, 3.0, 0.0)));
     assert!(pixels[1].x == 1.5 && pixels[1].y == 4.0 && pixels[1].z.is_nan());
@@ -123,7 +129,9 @@ fn layers_and_parts() {
     let missing = message(decode(&bytes, Preference::Xyz, Some("middle")));
     assert!(missing.contains("in the layer \"middle\": the channels are B, G, R, B, G, R, N.X"), "{missing}");
     // One part with a picture among others.
-    assert!(decode(&file(vec![part("depth", (2, 1), &normal), part("c", (2, 1), &RGB)]), Preference::Xyz, None).is_ok());
+    assert!(
+        decode(&file(vec![part("depth", (2, 1), &normal), part("c", (2, 1), &RGB)]), Preference::Xyz, None).is_ok()
+    );
 }
 
 #[test]
@@ -132,7 +140,9 @@ fn refuses_what_is_no_picture() {
     assert!(message(decode(b"\x89PNG\r\n", Preference::Xyz, None)).contains("not an EXR"));
     let luminance = file(vec![part("a", (2, 1), &[("Y", &[1.0; 2]), ("A", &[1.0; 2])])]);
     assert!(message(decode(&luminance, Preference::Xyz, None)).contains("the channels are A, Y; expected X, Y, Z or"));
-    assert!(message(read_file("/no/such.exr".as_ref(), Preference::Xyz, None)).starts_with("/no/such.exr: cannot be read"));
+    assert!(
+        message(read_file("/no/such.exr".as_ref(), Preference::Xyz, None)).starts_with("/no/such.exr: cannot be read")
+    );
 }
 
 /// Cut short or with any byte changed, a file is refused or read, but never ends the program.
