@@ -1,8 +1,9 @@
 //! Light paths, splatted where the camera sees them.
 
+use super::bounce;
 use super::path::camera_density;
-use super::walk::{Crossing, Walk};
-use super::{Techniques, bounce};
+use super::techniques::Techniques;
+use super::walk::{Crossing, Parting, Walk};
 use crate::bsdf::Bsdf;
 use crate::film::{Filter, Sensor, Splat};
 use crate::geometry::{Frame, Ray, offset_origin};
@@ -31,6 +32,8 @@ struct Target<'a> {
     tracer: &'a LightTracer<'a>,
     /// Density of light paths where camera paths could find the same; see [`Techniques::light_path_density`].
     density: Option<f32>,
+    /// Whether the light is local: light paths own all that bounces off what it lights.
+    local: bool,
     /// Power of the path in each lane, before any scattering.
     power: SampledSpectrum,
     weights: [SampledSpectrum; 3],
@@ -57,16 +60,23 @@ impl LightTracer<'_> {
         let Some(emission) = light.emit(scene, &aim, [u[0], u[1]], [u[3], u[4]]) else { return };
         workspace.spectra.begin(wavelengths);
         let hero = (u[6] * LANES as f32) as usize;
+        let parting = if self.caustics_only() { Parting::Ways(2) } else { Parting::Ways(1) };
 
         let origin = emission.start.origin(emission.direction);
         let inside = if INTERIORS && light.may_be_inside { scene.interiors_at(origin) } else { Vec::new() };
         workspace.interiors.reset(&inside);
         let spectrum = workspace.spectra.spectrum(scene, light.spectrum);
-        let mut walk =
-            Walk::start(scene, workspace, Ray { origin, direction: emission.direction }, hero, (sobol, index));
+        let mut walk = Walk::start(
+            scene,
+            workspace,
+            Ray { origin, direction: emission.direction },
+            (hero, parting),
+            (sobol, index),
+        );
         let mut target = Target {
             tracer: self,
             density: self.techniques.light_path_density(scene, light_index as u32, &emission.exit()),
+            local: light.is_local(),
             power: spectrum * (emission.weight / probability),
             weights: self.sensor.weights(&wavelengths),
             splats,
@@ -74,7 +84,7 @@ impl LightTracer<'_> {
         if !self.caustics_only() {
             target.splat_emitter::<INTERIORS>(&mut walk, light, &emission, spectrum * (1.0 / probability));
         }
-        self.follow::<DISPERSION, INTERIORS>(&mut walk, &mut target);
+        self.follow::<DISPERSION, INTERIORS>(&mut walk, &mut target, false);
     }
 
     fn caustics_only(&self) -> bool {
@@ -82,8 +92,12 @@ impl LightTracer<'_> {
     }
 
     /// Follows a path from surface to surface.
-    fn follow<const DISPERSION: bool, const INTERIORS: bool>(&self, walk: &mut Walk, target: &mut Target) {
-        let mut focused = false;
+    fn follow<const DISPERSION: bool, const INTERIORS: bool>(
+        &self,
+        walk: &mut Walk,
+        target: &mut Target,
+        mut focused: bool,
+    ) {
         let mut diffused = false;
         while walk.depth < self.max_depth {
             let Some(surface) = walk.advance::<INTERIORS>() else { break };
@@ -94,17 +108,30 @@ impl LightTracer<'_> {
                     Crossing::Passed => continue,
                     Crossing::Ended => break,
                     Crossing::Scattered => focused |= !diffused,
+                    Crossing::Parted(bundle) => {
+                        for way in 0..bundle.ways {
+                            if walk.set_out(&bundle, way) {
+                                self.follow::<DISPERSION, INTERIORS>(walk, target, true);
+                            }
+                        }
+                        break;
+                    }
                 }
             } else {
                 let Some((bsdf, frame)) = walk.bsdf::<INTERIORS>(object, &surface) else { break };
                 if bsdf.is_specular() {
                     focused |= !diffused;
                 } else {
-                    diffused = true;
-                    if self.caustics_only() && !focused {
+                    let owned = !self.caustics_only() || focused || (target.local && diffused);
+                    if owned {
+                        target.splat_surface::<INTERIORS>(walk, &surface, &bsdf, &frame, [u[4], u[5]]);
+                    } else if !target.local {
                         break;
                     }
-                    target.splat_surface::<INTERIORS>(walk, &surface, &bsdf, &frame, [u[4], u[5]]);
+                    diffused = true;
+                    if !walk.diffused() {
+                        break;
+                    }
                 }
                 walk.throughput *= adjoint(&frame, -walk.ray.direction);
                 if bounce(walk, &surface, &bsdf, &frame.without_shading(), [u[0], u[1]]).is_none() {

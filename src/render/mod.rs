@@ -1,8 +1,10 @@
 //! The driver: splits a picture into pieces of work that any number of threads can do in any order with the same bits,
 //! and the light transport techniques, one file each.
 
+mod baseline;
 mod light;
 mod path;
+mod techniques;
 mod walk;
 mod workspace;
 
@@ -13,28 +15,14 @@ use crate::color::Observer;
 use crate::film::{CAMERA_REPLICATES, Film, LIGHT_REPLICATES, PixelSums, Sensor, Splat};
 use crate::geometry::Frame;
 use crate::sampling::{Sobol, mix};
-use crate::scene::{Exit, FilmSettings, Integrator, RenderSettings, Scene, SceneFeatures, Surface};
+use crate::scene::{FilmSettings, Integrator, RenderSettings, Scene, SceneFeatures, Surface};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, LANES, SampledSpectrum, Wavelengths};
 use light::LightTracer;
 use rayon::prelude::*;
-use std::f32::consts::FRAC_1_PI;
 use std::time::Instant;
-use walk::Walk;
+use techniques::Techniques;
+use walk::{Parting, Walk};
 use workspace::Workspace;
-
-/// Which techniques take part.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Techniques {
-    /// Camera paths alone.
-    Path,
-    /// Camera paths, and light paths for caustics of small lights seen directly.
-    CameraAndLight {
-        /// Light paths traced for each camera path.
-        light_paths_per_camera_path: f32,
-    },
-    /// Light paths alone.
-    Light,
-}
 
 /// What a render did.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -96,6 +84,8 @@ struct Renderer<'a, const DISPERSION: bool, const INTERIORS: bool> {
     film: &'a FilmSettings,
     sensor: Sensor,
     techniques: Techniques,
+    /// What camera paths do where lanes part.
+    parting: Parting,
     /// What holds the camera, if that is the same for all its rays.
     camera_interiors: Option<Vec<(u32, crate::scene::MediumId)>>,
 }
@@ -103,10 +93,12 @@ struct Renderer<'a, const DISPERSION: bool, const INTERIORS: bool> {
 impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION, INTERIORS> {
     fn new(scene: &'a Scene, settings: &'a RenderSettings, film: &'a FilmSettings) -> Self {
         let techniques = match settings.integrator {
-            Integrator::Path => Techniques::Path,
+            Integrator::Path | Integrator::Hero => Techniques::Path,
             Integrator::Light => Techniques::Light,
-            Integrator::Auto if scene.caustic_table.is_empty() => Techniques::Path,
-            Integrator::Auto => Techniques::CameraAndLight { light_paths_per_camera_path: 1.0 },
+            Integrator::Auto | Integrator::Merge if scene.caustic_table.is_empty() => Techniques::Path,
+            Integrator::Auto | Integrator::Merge => {
+                Techniques::CameraAndLight { light_paths_per_camera_path: 1.0, merging: false }
+            }
         };
         let camera_interiors = if !scene.may_be_inside(&scene.camera.bounds()) {
             Some(Vec::new())
@@ -115,7 +107,8 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         } else {
             None
         };
-        Self { scene, settings, film, sensor: standard_sensor(), techniques, camera_interiors }
+        let parting = if settings.integrator == Integrator::Hero { Parting::Terminate } else { Parting::Ways(2) };
+        Self { scene, settings, film, sensor: standard_sensor(), techniques, parting, camera_interiors }
     }
 
     fn render(&self, proceed: &mut dyn FnMut(Progress) -> bool) -> (Film, Statistics) {
@@ -203,9 +196,10 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         let u = sobol.group(index, 0);
         let [dx, dy] = self.film.filter.sample([u[0], u[1]]);
         let (x, y) = (pixel % self.film.width, pixel / self.film.width);
-        let wavelengths = scene.wavelengths.sample(u[2]);
+        let baseline = self.parting == Parting::Terminate;
+        let wavelengths = if baseline { baseline::wavelengths(u[2]) } else { scene.wavelengths.sample(u[2]) };
         let ray = scene.camera.ray([x as f32 + 0.5 + dx, y as f32 + 0.5 + dy], [u[3], u[4]]);
-        let hero = (u[5] * LANES as f32) as usize;
+        let hero = if baseline { 0 } else { (u[5] * LANES as f32) as usize };
 
         workspace.spectra.begin(wavelengths);
         if INTERIORS {
@@ -214,7 +208,10 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 None => workspace.interiors.reset(&scene.interiors_at(ray.origin)),
             }
         }
-        let mut walk = Walk::start(scene, workspace, ray, hero, (sobol, index));
+        let mut walk = Walk::start(scene, workspace, ray, (hero, self.parting), (sobol, index));
+        if baseline {
+            walk.throughput = baseline::throughput();
+        }
         let radiance = path::radiance::<DISPERSION, INTERIORS>(&mut walk, &self.techniques, self.settings.max_depth);
         sums.add_sample(replicate, self.xyz(&wavelengths, radiance))
     }
@@ -286,23 +283,4 @@ fn bounce(walk: &mut Walk, surface: &Surface, bsdf: &Bsdf, frame: &Frame, u: [f3
     walk.ray = surface.spawn(sample.wi);
     walk.depth += 1;
     Some(sample)
-}
-
-impl Techniques {
-    /// Density of light paths per unit area at a diffuse surface seen by the camera, relative to one camera path, after
-    /// division by the Lambertian density 1/π that both directions of such a path share. `None` if no light path
-    /// starts from this light, or it has no extent that camera paths could meet.
-    ///
-    /// A path of camera, diffuse surfaces, a chain of specular ones and light is found from both ends. Its densities per
-    /// unit of étendue differ in their first step alone: the camera's density per area times 1/π, against the light's
-    /// density of point and direction. Everything between is shared (for specular vertices étendue is conserved, and
-    /// reflection is chosen with the same probability both ways), so the ratio needs no bookkeeping along the path.
-    fn light_path_density(&self, scene: &Scene, light: u32, exit: &Exit) -> Option<f32> {
-        let (Self::CameraAndLight { light_paths_per_camera_path }, Some(aim)) = (self, &scene.caustic_aim) else {
-            return None;
-        };
-        let drawn = scene.caustic_table.probability(light as usize) * light_paths_per_camera_path;
-        let density = scene.lights[light as usize].emission_density(exit, aim)?;
-        (drawn > 0.0).then(|| drawn * density / FRAC_1_PI)
-    }
 }

@@ -17,6 +17,8 @@ pub struct Workspace {
     pub shadow_interiors: Interiors,
     /// The same past the surface at hand.
     pub beyond: Interiors,
+    /// The same past the surface where lanes have parted.
+    pub parted_interiors: Interiors,
     /// What has been counted.
     pub counters: Counters,
 }
@@ -46,6 +48,7 @@ impl Workspace {
             interiors: Interiors::default(),
             shadow_interiors: Interiors::default(),
             beyond: Interiors::default(),
+            parted_interiors: Interiors::default(),
             counters: Counters::default(),
         }
     }

@@ -152,6 +152,8 @@ pub struct Emission {
 pub struct Exit {
     /// Where.
     pub point: Vec3,
+    /// Unit direction of travel.
+    pub direction: Vec3,
     /// Cosine to the light's normal; 1 off surfaces.
     pub cos: f32,
 }
@@ -160,7 +162,7 @@ impl Emission {
     /// How the path leaves its light.
     pub fn exit(&self) -> Exit {
         let cos = if self.start.normal == Vec3::ZERO { 1.0 } else { self.start.normal.dot(self.direction) };
-        Exit { point: self.start.point, cos }
+        Exit { point: self.start.point, direction: self.direction, cos }
     }
 }
 
