@@ -1,5 +1,6 @@
 //! Command line: one file a subcommand; the only place that prints, shows progress or exits.
 
+pub mod bench;
 pub mod compare;
 pub mod glass;
 mod heat;
@@ -39,8 +40,8 @@ enum Command {
     Develop(NotYet),
     /// Compare two EXR pictures, of abbe or any renderer
     Compare(compare::CompareArgs),
-    /// Run time against error (not yet)
-    Bench(NotYet),
+    /// Run time against error: integrators, settings and other renderers on the same scenes
+    Bench(Box<bench::BenchArgs>),
     /// Colour of a spectrum (not yet)
     Spectrum(NotYet),
     /// Spectrum of a colour (not yet)
@@ -84,7 +85,7 @@ fn run(command: &Command) -> Result<ExitCode> {
         Command::Explain(args) => not_yet("explain", args),
         Command::Develop(args) => not_yet("develop", args),
         Command::Compare(args) => compare::run(args),
-        Command::Bench(args) => not_yet("bench", args),
+        Command::Bench(args) => bench::run(args),
         Command::Spectrum(args) => not_yet("spectrum", args),
         Command::Upsample(args) => not_yet("upsample", args),
         Command::Completions(args) => not_yet("completions", args),
