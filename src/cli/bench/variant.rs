@@ -1,8 +1,8 @@
 //! What is compared with what.
 
 use super::{usage, work::Work};
-use crate::scene::{Integrator, RenderSettings};
 use crate::Result;
+use crate::scene::{Integrator, RenderSettings};
 
 /// The integrators by name.
 pub const INTEGRATORS: [(&str, Integrator); 5] = [
