@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod compare;
+pub mod export;
 pub mod glass;
 mod heat;
 mod process;
