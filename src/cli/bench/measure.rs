@@ -190,7 +190,8 @@ fn run_shell(line: &str) -> Result<Option<u64>> {
     let output = output.map_err(|e| failed(format!("waiting failed: {e}")))?;
     if !output.status.success() {
         let text = String::from_utf8_lossy(&output.stderr);
-        let last = text.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("nothing on stderr").trim();
+        let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+        let last = lines[lines.len().saturating_sub(3)..].join(" | ");
         return Err(failed(format!("the command failed ({}): {last}", output.status)));
     }
     Ok(peak)

@@ -178,6 +178,10 @@ impl<'a> Session<'a> {
         let work = self.pool.install(|| Work::new(path, self.args.resolution.as_deref()))?;
         work.warnings.iter().for_each(|warning| self.say(&format!("warning: {warning}")));
         let mask = self.args.mask.as_deref().map(|path| read_mask(path, work.size())).transpose()?;
+        for variant in &self.variants {
+            // Once for nothing: first touches of memory and caches are no part of the cost, and what fails fails early.
+            measure::measure(self, &work, variant, self.args.from_spp, 0)?;
+        }
         let reference = reference::get(self, &work, mask.as_deref())?;
         self.say(&format!("{}: {}", work.name, reference.told()));
         let mut progress: Vec<Progress> = self.variants.iter().map(|v| Progress::new(v, work.pixels())).collect();
@@ -210,10 +214,6 @@ impl<'a> Session<'a> {
         progress: &mut [Progress],
     ) -> Result<()> {
         let share = self.args.time_limit / progress.len() as f64;
-        for p in progress.iter() {
-            // Once for nothing: first touches of memory and caches are no part of the cost.
-            measure::measure(self, work, p.variant, self.args.from_spp, 0)?;
-        }
         let mut spp = self.args.from_spp;
         for level in 0.. {
             let order: Vec<usize> = (0..progress.len()).filter(|&i| progress[i].goes_on(share)).collect();

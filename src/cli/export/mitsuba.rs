@@ -41,8 +41,8 @@ fn line(out: &mut String, text: &str) {
 
 fn sensor(out: &mut String, parts: &Parts) -> Result<()> {
     let (camera, film) = (&parts.camera, &parts.film);
-    if film.filter != FilterKind::Box {
-        return Err(cannot(NAME, "a filter other than the box", "film.filter"));
+    if film.filter != FilterKind::Box || film.filter_radius != 0.5 {
+        return Err(cannot(NAME, "a filter other than the box of one pixel", "film.filter"));
     }
     let lens = match camera.aperture_radius {
         0.0 => String::new(),
@@ -74,8 +74,8 @@ fn sensor(out: &mut String, parts: &Parts) -> Result<()> {
         &format!(
             "<film type=\"hdrfilm\"><integer name=\"width\" value=\"{}\"/><integer name=\"height\" value=\"{}\"/>\
          <string name=\"pixel_format\" value=\"rgb\"/><string name=\"component_format\" value=\"float32\"/>\
-         <rfilter type=\"box\"><float name=\"radius\" value=\"{}\"/></rfilter></film>\n</sensor>",
-            film.width, film.height, film.filter_radius
+         <rfilter type=\"box\"/></film>\n</sensor>",
+            film.width, film.height
         ),
     );
     Ok(())
@@ -109,7 +109,11 @@ fn shape(out: &mut String, object: &Object) -> Result<()> {
             )
         }
         Shape::Disk(transform) => format!("<shape type=\"disk\">{}", matrix(transform)),
-        Shape::Ply(name) => format!("<shape type=\"ply\"><string name=\"filename\" value=\"{name}\"/>"),
+        Shape::Ply { file, smooth } => format!(
+            // Without normals in the file Mitsuba would make smooth ones.
+            "<shape type=\"ply\"><string name=\"filename\" value=\"{file}\"/><boolean name=\"face_normals\" value=\"{}\"/>",
+            !smooth
+        ),
     };
     let emission = match &object.emission {
         None => String::new(),

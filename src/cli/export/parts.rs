@@ -57,7 +57,12 @@ pub enum Shape {
     /// The image of the unit disc with normal +z.
     Disk(DAffine3),
     /// A file of triangles.
-    Ply(String),
+    Ply {
+        /// Its name.
+        file: String,
+        /// Whether it has vertex normals.
+        smooth: bool,
+    },
 }
 
 /// Surfaces.
@@ -268,9 +273,10 @@ fn shape(
         ShapeDescription::Implicit(_) => refused("an implicit surface"),
         ShapeDescription::Lens { .. } => refused("a lens"),
         _ => {
-            let name = format!("{stem}-{index}.ply");
-            meshes.push((name.clone(), ply(description, scene, index)));
-            Ok(Shape::Ply(name))
+            let file = format!("{stem}-{index}.ply");
+            let (bytes, smooth) = ply(description, scene, index);
+            meshes.push((file.clone(), bytes));
+            Ok(Shape::Ply { file, smooth })
         }
     }
 }
@@ -292,8 +298,8 @@ fn transform(steps: &[TransformStep]) -> DAffine3 {
     })
 }
 
-/// The triangles of an object as the renderer has them, in metres, as binary PLY.
-fn ply(description: &SceneDescription, scene: &Scene, index: usize) -> Vec<u8> {
+/// The triangles of an object as the renderer has them, in metres, as binary PLY; and whether with vertex normals.
+fn ply(description: &SceneDescription, scene: &Scene, index: usize) -> (Vec<u8>, bool) {
     // The centre of the compiled scene is a multiple of a millionth of its unit, so that rounding finds it exactly.
     let grid = scene.meters_per_unit / f64::from(1 << 20);
     let camera = scene.camera.position().as_dvec3() * scene.meters_per_unit;
@@ -331,5 +337,5 @@ fn ply(description: &SceneDescription, scene: &Scene, index: usize) -> Vec<u8> {
         bytes.push(3);
         triangle.iter().for_each(|i| bytes.extend(i.to_le_bytes()));
     }
-    bytes
+    (bytes, smooth)
 }

@@ -107,7 +107,7 @@ fn shape(out: &mut String, object: &Object) -> Result<()> {
             format!("Translate {}\nShape \"sphere\" \"float radius\" {radius}", triple(center.to_array()))
         }
         Shape::Disk(transform) => format!("{}\nShape \"disk\"", matrix(transform)),
-        Shape::Ply(name) => format!("Shape \"plymesh\" \"string filename\" \"{name}\""),
+        Shape::Ply { file, .. } => format!("Shape \"plymesh\" \"string filename\" \"{file}\""),
     };
     line(out, &geometry);
     line(out, "AttributeEnd");

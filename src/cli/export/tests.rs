@@ -57,6 +57,7 @@ fn mitsuba_gets_what_the_scene_says() {
         "<spectrum name=\"intensity\" value=\"2\"/>",
         "value=\"360:0.20000000298",
         "<bsdf type=\"twosided\"><bsdf type=\"diffuse\">",
+        "<boolean name=\"face_normals\" value=\"true\"/>",
         "<matrix value=\"2 0 0 2 ",
     ] {
         assert!(text.contains(part), "expected {part} in\n{text}");
