@@ -64,6 +64,7 @@
 //! * `[ACES]` Academy of Motion Picture Arts and Sciences, S-2013-001 ACESproxy, S-2014-003 ACEScc, S-2014-004 ACEScg,
 //!   S-2016-001 ACEScct; SMPTE ST 2065-1.
 //! * `[AdobeRGB1998]` Adobe Systems, Adobe RGB (1998) color image encoding, 2005.
+//! * `[Andersson2020]` P. Andersson et al., FLIP: a difference evaluator for alternating images, Proc. ACM CGIT 3(2), 2020.
 //! * `[Apple2023]` Apple, Apple Log profile, 2023.
 //! * `[ARRI2017]` ARRI, ALEXA Log C curve, usage in VFX, 2017.
 //! * `[ARRI2022]` S. Cooper and H. Brendel, ARRI LogC4 logarithmic color space specification, 2022.
@@ -102,6 +103,7 @@
 //! * `[DCI2012]` Digital Cinema Initiatives, Digital cinema system specification 1.2, 2012; SMPTE RP 431-2.
 //! * `[DIN6176]` DIN 6176, Colorimetric determination of colour differences of object colours by the DIN99 formula, 2001.
 //! * `[DJI2017]` DJI, White paper on D-Log and D-Gamut, 2017.
+//! * `[DLMF]` NIST Digital Library of Mathematical Functions, chapter 8, release 1.2, 2024.
 //! * `[Duff2017]` T. Duff et al., Building an orthonormal basis, revisited, JCGT 6(1), 2017.
 //! * `[E2022]` ASTM E2022, Standard practice for calculation of weighting factors for tristimulus integration, 2016.
 //! * `[E308]` ASTM E308, Standard practice for computing the colors of objects by using the CIE system, 2015.
@@ -114,6 +116,7 @@
 //!   and images, SPIE 7867, 2011.
 //! * `[Fairchild2013]` M. D. Fairchild, Color Appearance Models, 3rd edition, 2013.
 //! * `[Fairchild2020]` M. D. Fairchild, Von Kries 2020: evolution of degree of chromatic adaptation, CIC 28, 2020.
+//! * `[Fichet2021]` A. Fichet, R. Pacanowski, A. Wilkie, An OpenEXR layout for spectral images, JCGT 10(3), 2021.
 //! * `[FilmLight2018]` FilmLight, T-Log and E-Gamut, 2018.
 //! * `[Froehlich2017]` J. Fröhlich, Encoding high dynamic range and wide color gamut imagery, PhD thesis, Stuttgart, 2017.
 //! * `[Fujifilm2022]` Fujifilm, F-Log data sheet 1.1 and F-Log2 data sheet 1.0, 2022.
@@ -135,6 +138,7 @@
 //!   daylight and skylight chromaticities, Appl. Opt. 38, 1999.
 //! * `[Higham2002]` N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, 2002.
 //! * `[HunterLab2008]` HunterLab, Hunter L, a, b color scale; illuminant factors, 2008.
+//! * `[Hyndman1996]` R. J. Hyndman and Y. Fan, Sample quantiles in statistical packages, Am. Stat. 50(4), 1996.
 //! * `[IEC61966]` IEC 61966-2-1, Default RGB colour space – sRGB, 1999.
 //! * `[ISO7944]` ISO 7944, Optics and optical instruments – Reference wavelengths, 1998.
 //! * `[Ize2013]` T. Ize, Robust BVH ray traversal, JCGT 2(2), 2013.
@@ -190,6 +194,8 @@
 //! * `[Robertson1968]` A. R. Robertson, Computation of correlated color temperature and distribution temperature, J. Opt.
 //!   Soc. Am. 58, 1968.
 //! * `[Rodrigues1840]` O. Rodrigues, Des lois géométriques qui régissent les déplacements d'un système solide, 1840.
+//! * `[Rousselle2011]` F. Rousselle, C. Knaus, M. Zwicker, Adaptive sampling and reconstruction using greedy error
+//!   minimization, ACM TOG 30(6), 2011.
 //! * `[Safdar2017]` M. Safdar et al., Perceptually uniform color space for image signals, Opt. Express 25, 2017.
 //! * `[Safdar2021]` M. Safdar et al., ZCAM, a colour appearance model based on a high dynamic range uniform colour
 //!   space, Opt. Express 29, 2021.
@@ -236,6 +242,7 @@ pub mod film;
 pub mod geometry;
 pub mod io;
 pub mod math;
+pub mod metrics;
 pub mod optics;
 pub mod render;
 pub mod sampling;

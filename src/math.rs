@@ -100,6 +100,11 @@ pub fn signed_pow(x: f64, y: f64) -> f64 {
     pow(x.abs(), y).copysign(x)
 }
 
+/// Natural logarithm of the gamma function of x > 0.
+pub fn ln_gamma(x: f64) -> f64 {
+    libm::lgamma(x)
+}
+
 /// Sine and cosine of an f32 angle in radians.
 pub fn sin_cos_f32(x: f32) -> (f32, f32) {
     libm::sincosf(x)

@@ -26,6 +26,7 @@ const RULES: &[(&str, &[Grant])] = &[
     ("optics", &[Module("spectrum")]),
     ("bsdf", &[Items("geometry", &["Frame"]), Module("optics"), Module("sampling"), Module("spectrum")]),
     ("film", &[Module("color"), Module("sampling"), Module("spectrum")]),
+    ("metrics", &[Module("color")]),
     ("develop", &[Module("color"), Module("film")]),
     (
         "io",

@@ -1,7 +1,11 @@
 //! Command line: one file a subcommand; the only place that prints, shows progress or exits.
 
+pub mod bench;
+pub mod compare;
 pub mod completions;
+pub mod export;
 pub mod glass;
+mod heat;
 mod plot;
 mod process;
 pub mod render;
@@ -17,6 +21,8 @@ use std::process::ExitCode;
 
 /// Exit code of a render that was interrupted after it had written what it had.
 pub const INTERRUPTED: u8 = 75;
+/// Exit code of a comparison over its threshold.
+pub const OVER_THRESHOLD: u8 = 4;
 
 /// A spectral renderer and colour library.
 #[derive(Debug, Parser)]
@@ -38,10 +44,10 @@ enum Command {
     Explain(NotYet),
     /// Develop an EXR into a PNG (not yet)
     Develop(NotYet),
-    /// Compare two pictures (not yet)
-    Compare(NotYet),
-    /// Run time against error (not yet)
-    Bench(NotYet),
+    /// Compare two EXR pictures, of abbe or any renderer
+    Compare(compare::CompareArgs),
+    /// Run time against error: integrators, settings and other renderers on the same scenes
+    Bench(Box<bench::BenchArgs>),
     /// Print the colour of spectra from a file
     Spectrum(Box<spectrum::SpectrumArgs>),
     /// Make a spectrum of an RGB colour
@@ -114,8 +120,8 @@ fn run(command: &Command) -> Result<ExitCode> {
         Command::Glass(args) => done(glass::run(args)),
         Command::Explain(args) => not_yet("explain", args),
         Command::Develop(args) => not_yet("develop", args),
-        Command::Compare(args) => not_yet("compare", args),
-        Command::Bench(args) => not_yet("bench", args),
+        Command::Compare(args) => compare::run(args),
+        Command::Bench(args) => bench::run(args),
         Command::Spectrum(args) => done(spectrum::run(args)),
         Command::Upsample(args) => done(upsample::run(args)),
         Command::Completions(args) => done(completions::run(args, Cli::command())),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 use serde_json::{Value, json};
 
-use super::write_data;
+use super::{export, write_data};
 use crate::scene::compile;
 use crate::scene::description::{self, Parsed};
 use crate::{Error, ErrorKind, Result};
@@ -26,8 +26,8 @@ pub enum SceneCommand {
     Check(CheckArgs),
     /// Print the JSON Schema of scene files
     Schema,
-    /// Write a scene for another renderer (not yet)
-    Export(ExportArgs),
+    /// Write a scene for another renderer
+    Export(export::ExportArgs),
 }
 
 /// `abbe scene check SCENE...`.
@@ -42,14 +42,6 @@ pub struct CheckArgs {
     /// Print nothing but errors
     #[arg(short, long)]
     pub quiet: bool,
-}
-
-/// `abbe scene export …`; takes anything, as it is refused anyway.
-#[derive(Debug, Args)]
-pub struct ExportArgs {
-    /// Arguments
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
-    pub arguments: Vec<String>,
 }
 
 /// What `check` tells about a scene.
@@ -75,7 +67,7 @@ pub fn run(args: &SceneArgs, out: &mut dyn Write, err: &mut dyn Write) -> Result
             let text = serde_json::to_string_pretty(&description::schema()).map_err(|error| failed(&error))?;
             write_data(out, format!("{text}\n").as_bytes())
         }
-        SceneCommand::Export(_) => Err(Error::new(ErrorKind::Usage, "`abbe scene export` is not supported yet")),
+        SceneCommand::Export(args) => export::run(args, out),
     }
 }
 
@@ -218,11 +210,9 @@ mod tests {
     }
 
     #[test]
-    fn prints_the_schema_and_refuses_export() {
+    fn prints_the_schema() {
         let (out, _, error) = scene(&["schema"]);
         assert!(error.is_none() && serde_json::from_str::<Value>(&out).is_ok());
-        let (_, _, error) = scene(&["export", "x.json", "--to", "pbrt"]);
-        assert_eq!(error.unwrap().kind.exit_code(), 2);
         assert!(Command::try_parse_from(["abbe", "check"]).is_err());
     }
 }

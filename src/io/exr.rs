@@ -61,6 +61,22 @@ pub fn encode(xyz: &[[f64; 3]], width: u32, attributes: &Attributes) -> Result<(
     Ok((bytes.into_inner(), overflows))
 }
 
+/// Encodes named channels of numbers, each row by row.
+pub fn encode_planes(planes: Vec<(&str, Vec<f32>)>, width: u32) -> Result<Vec<u8>> {
+    let size = Vec2(width as usize, planes.first().map_or(0, |(_, plane)| plane.len() / width as usize));
+    let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> =
+        planes.into_iter().map(|(name, plane)| AnyChannel::new(name, FlatSamples::F32(plane))).collect();
+    let layer = LayerAttributes { software_name: Some(Text::from(crate::VERSION)), ..Default::default() };
+    let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::FAST_LOSSLESS };
+    let image = Image::from_layer(Layer::new(size, layer, encoding, AnyChannels::sort(channels)));
+    let mut bytes = Cursor::new(Vec::new());
+    image
+        .write()
+        .to_buffered(&mut bytes)
+        .map_err(|e| Error::new(ErrorKind::Io, format!("cannot encode the EXR: {e}")))?;
+    Ok(bytes.into_inner())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,6 +2,8 @@
 
 pub mod catalogue;
 pub mod exr;
+pub mod exr_read;
+pub mod mask;
 pub mod mesh;
 mod obj;
 pub mod output;

@@ -6,6 +6,7 @@ mod chroma;
 mod difference;
 mod gamut;
 mod integration;
+mod metrics;
 mod optics;
 mod quality;
 mod recovery;
@@ -32,6 +33,7 @@ const SUBJECTS: [&[(&str, Function)]; 14] = [
     difference::FUNCTIONS,
     gamut::FUNCTIONS,
     integration::FUNCTIONS,
+    metrics::FUNCTIONS,
     optics::FUNCTIONS,
     quality::FUNCTIONS,
     recovery::FUNCTIONS,

@@ -1,0 +1,274 @@
+//! The picture that all others are measured against: made by the technique least like those on test, with its own error
+//! known, and kept for the next time.
+
+use super::measure::{self, Image, Run};
+use super::variant::{Kind, integrator_by_name, integrator_name};
+use super::work::{Work, hash_bytes};
+use super::{Session, usage};
+use crate::io::exr::encode_planes;
+use crate::io::exr_read::{self, Preference};
+use crate::io::output::write_atomically;
+use crate::metrics::{self, Pair};
+use crate::scene::{Integrator, RenderSettings};
+use crate::{Error, ErrorKind, Result};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// Independent runs that a reference is the mean of, from whose spread its own error follows.
+const RUNS: u64 = 8;
+/// Samples per pixel of the runs from which the reference's cost is foreseen.
+const PILOT_SPP: u64 = 16;
+/// Its own relMSE is to be this share of the lowest target.
+const SHARE_OF_TARGET: f64 = 0.05;
+/// Seeds of references; those on test are below.
+const FIRST_SEED: u64 = 1 << 40;
+
+/// A reference.
+#[derive(Debug, Clone)]
+pub struct Reference {
+    /// The picture.
+    pub mean: Image,
+    /// Variance of each of its values; `None` for a file, of whose error nothing is known.
+    pub variance: Option<Image>,
+    /// How it was made.
+    pub origin: Origin,
+    /// relMSE of the reference itself, over the mask.
+    own_relmse: f64,
+}
+
+/// Where a reference comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Origin {
+    /// A file of the user's.
+    File(PathBuf),
+    /// Made here.
+    Rendered {
+        /// The technique.
+        integrator: Integrator,
+        /// Why this one.
+        why: &'static str,
+        /// Samples per pixel of each run.
+        spp: u64,
+        /// Whether it is from an earlier benchmark.
+        cached: bool,
+        /// Processor time that it took.
+        cpu_seconds: f64,
+    },
+}
+
+impl Reference {
+    /// relMSE of the reference itself; 0 for a file.
+    pub fn own_relmse(&self) -> f64 {
+        self.own_relmse
+    }
+
+    /// One line for people.
+    pub fn told(&self) -> String {
+        match &self.origin {
+            Origin::File(path) => format!("reference {}, its own error unknown", path.display()),
+            Origin::Rendered { integrator, why, spp, cached, cpu_seconds } => format!(
+                "reference: {}, {RUNS} x {spp} samples per pixel, {cpu_seconds:.1} CPU s{}, its own relMSE {:.2e} ({why})",
+                integrator_name(*integrator),
+                if *cached { " (kept from an earlier run)" } else { "" },
+                self.own_relmse
+            ),
+        }
+    }
+
+    /// As JSON.
+    pub fn to_json(&self) -> Value {
+        match &self.origin {
+            Origin::File(path) => json!({ "file": path, "relmse": Value::Null }),
+            Origin::Rendered { integrator, why, spp, cached, cpu_seconds } => json!({
+                "integrator": integrator_name(*integrator), "why": why, "runs": RUNS, "samples_per_pixel": spp,
+                "cached": cached, "cpu_seconds": cpu_seconds, "relmse": self.own_relmse,
+            }),
+        }
+    }
+
+    /// The error that more samples would not remove, as a relMSE: that of the mean of `n` runs, less what their spread
+    /// (given by the sums of their squares) and the reference's own error explain. About 0, of either sign, for a technique
+    /// that is right.
+    pub fn systematic_error(
+        &self,
+        work: &Work,
+        mean: &Image,
+        squares: &Image,
+        n: f64,
+        mask: Option<&[bool]>,
+    ) -> Result<f64> {
+        let variance: Image = mean
+            .iter()
+            .zip(squares)
+            .map(|(m, s)| [0, 1, 2].map(|c| ((s[c] / n - m[c] * m[c]) / (n - 1.0)).max(0.0)))
+            .collect();
+        let pair = Pair::new(work.size()[0], mean, &self.mean, mask)?;
+        let of_spread = relative_to(&self.mean, &variance, work, mask)?;
+        Ok(metrics::relative_mse(&pair) - of_spread - self.own_relmse)
+    }
+}
+
+/// The mean over pixels and channels of variance / (R² + 0.01 m²): the relMSE that a variance amounts to.
+fn relative_to(reference: &Image, variance: &Image, work: &Work, mask: Option<&[bool]>) -> Result<f64> {
+    let noisy: Image =
+        reference.iter().zip(variance).map(|(r, v)| [0, 1, 2].map(|c| r[c] + v[c].max(0.0).sqrt())).collect();
+    Ok(metrics::relative_mse(&Pair::new(work.size()[0], &noisy, reference, mask)?))
+}
+
+/// The reference of a scene: a file, one made earlier, or one made now.
+pub fn get(session: &Session, work: &Work, mask: Option<&[bool]>) -> Result<Reference> {
+    let (integrator, why) = match session.args.reference.as_deref() {
+        Some(name) if is_file(name) => return from_file(work, Path::new(name)),
+        Some(name) => (integrator_by_name("--reference", name)?, "as asked for"),
+        None => least_alike(session, work),
+    };
+    let path = path_for(session, work, integrator);
+    let mut reference = match from_cache(&path, work, (integrator, why)) {
+        Some(reference) => reference,
+        None => {
+            let made = make(session, work, (integrator, why))?;
+            keep(&made, &path, work)?;
+            made
+        }
+    };
+    if let Some(variance) = &reference.variance {
+        reference.own_relmse = relative_to(&reference.mean, variance, work, mask)?;
+    }
+    Ok(reference)
+}
+
+fn is_file(name: &str) -> bool {
+    name.to_ascii_lowercase().ends_with(".exr") || Path::new(name).is_file()
+}
+
+/// Another technique than those on test, if it can see everything.
+fn least_alike(session: &Session, work: &Work) -> (Integrator, &'static str) {
+    let settings = |v: &super::Variant| match v.kind {
+        Kind::Abbe { .. } => Some(v.kind.settings(work, 1, 0).integrator),
+        Kind::Command { .. } => None,
+    };
+    let all_trace_light =
+        session.variants.iter().filter_map(settings).all(|integrator| integrator == Integrator::Light);
+    match (work.light_paths_see_all(), work.camera_paths_see_all()) {
+        (true, _) if !all_trace_light => (Integrator::Light, "light paths see everything here"),
+        (_, true) => (Integrator::Path, "camera paths see everything here; light paths do not, or are on test"),
+        _ => (Integrator::Auto, "no technique but auto sees everything here: an error common to both stays unseen"),
+    }
+}
+
+/// Where the reference of a scene and its settings is kept.
+fn path_for(session: &Session, work: &Work, integrator: Integrator) -> PathBuf {
+    let [width, height] = work.size();
+    let asked = session.args.reference_spp.map_or("auto".to_owned(), |spp| spp.to_string());
+    let quality = match session.args.reference_spp {
+        Some(_) => String::new(),
+        None => format!("{:e} {}", session.lowest_target(), session.args.time_limit),
+    };
+    let settings = format!(
+        "{} {} {width} {height} {} {asked} {quality}",
+        crate::VERSION,
+        integrator_name(integrator),
+        work.compiled.render.max_depth
+    );
+    let hash = hash_bytes(work.content_hash, settings.as_bytes());
+    session.args.output.join("references").join(format!("{}-{hash:016x}.exr", work.name))
+}
+
+fn from_file(work: &Work, path: &Path) -> Result<Reference> {
+    let mean = picture_of_size(path, work)?;
+    Ok(Reference { mean, variance: None, origin: Origin::File(path.to_owned()), own_relmse: 0.0 })
+}
+
+fn picture_of_size(path: &Path, work: &Work) -> Result<Image> {
+    let picture = exr_read::read_file(path, Preference::Xyz, None)?;
+    let [width, height] = work.size();
+    let found = picture.xyz.len() as u32 / picture.width;
+    if [picture.width, found] != [width, height] {
+        let message = format!("{}x{found} pixels; expected {width}x{height}, as the scene has", picture.width);
+        return Err(Error::new(ErrorKind::OutOfRange, message).in_file(path));
+    }
+    Ok(picture.xyz)
+}
+
+/// What is kept is used only if all of it is there.
+fn from_cache(path: &Path, work: &Work, (integrator, why): (Integrator, &'static str)) -> Option<Reference> {
+    let about: Value = serde_json::from_slice(&std::fs::read(path.with_extension("json")).ok()?).ok()?;
+    let mean = picture_of_size(path, work).ok()?;
+    let variance = Some(picture_of_size(&path.with_extension("variance.exr"), work).ok()?);
+    let (spp, cpu_seconds) = (about["samples_per_pixel"].as_u64()?, about["cpu_seconds"].as_f64()?);
+    let origin = Origin::Rendered { integrator, why, spp, cached: true, cpu_seconds };
+    Some(Reference { mean, variance, origin, own_relmse: 0.0 })
+}
+
+fn keep(reference: &Reference, path: &Path, work: &Work) -> Result<()> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    std::fs::create_dir_all(folder)
+        .map_err(|e| Error::new(ErrorKind::Io, format!("cannot make the folder: {e}")).in_file(folder))?;
+    let encode = |image: &Image| {
+        let plane = |c: usize| image.iter().map(|pixel| pixel[c] as f32).collect();
+        encode_planes(vec![("X", plane(0)), ("Y", plane(1)), ("Z", plane(2))], work.size()[0])
+    };
+    write_atomically(path, &encode(&reference.mean)?)?;
+    if let Some(variance) = &reference.variance {
+        write_atomically(&path.with_extension("variance.exr"), &encode(variance)?)?;
+    }
+    write_atomically(&path.with_extension("json"), format!("{:#}\n", reference.to_json()).as_bytes())
+}
+
+/// Renders a reference: a pilot foretells how many samples make it good enough, and is not part of it.
+fn make(session: &Session, work: &Work, (integrator, why): (Integrator, &'static str)) -> Result<Reference> {
+    if integrator == Integrator::Light && !work.light_paths_see_all() {
+        session.say(&format!("warning: {}: light paths do not see all that this scene has", work.name));
+    }
+    if matches!(integrator, Integrator::Path | Integrator::Hero) && !work.camera_paths_see_all() {
+        session.say(&format!("warning: {}: camera paths do not see all that this scene has", work.name));
+    }
+    let settings = RenderSettings { integrator, ..work.compiled.render };
+    let spp = match session.args.reference_spp {
+        Some(spp) => spp,
+        None => {
+            let (pilot, run) = mean_of_runs(session, work, &settings, PILOT_SPP, FIRST_SEED);
+            let variance = pilot.variance.as_ref().ok_or_else(|| usage("a reference without a variance"))?;
+            let error = relative_to(&pilot.mean, variance, work, None)?;
+            let wanted = error / (SHARE_OF_TARGET * session.lowest_target());
+            let affordable = session.args.time_limit / run.wall_seconds.max(f64::MIN_POSITIVE);
+            let factor = wanted.min(affordable).clamp(1.0, 65536.0);
+            (PILOT_SPP as f64 * factor).ceil() as u64
+        }
+    };
+    let (mut reference, run) = mean_of_runs(session, work, &settings, spp, FIRST_SEED + RUNS);
+    reference.origin = Origin::Rendered { integrator, why, spp, cached: false, cpu_seconds: run.cpu_seconds };
+    Ok(reference)
+}
+
+/// The mean of independent runs, the variance of that mean, and what all of them cost.
+fn mean_of_runs(
+    session: &Session,
+    work: &Work,
+    settings: &RenderSettings,
+    samples_per_pixel: u64,
+    first_seed: u64,
+) -> (Reference, Run) {
+    let n = RUNS as f64;
+    let mut sums = vec![[0.0; 3]; work.pixels()];
+    let mut squares = sums.clone();
+    let mut cost = Run::default();
+    for seed in first_seed..first_seed + RUNS {
+        let (picture, run) = measure::abbe(session, work, &RenderSettings { samples_per_pixel, seed, ..*settings });
+        for ((sum, square), pixel) in sums.iter_mut().zip(&mut squares).zip(&picture) {
+            for c in 0..3 {
+                sum[c] += pixel[c];
+                square[c] += pixel[c] * pixel[c];
+            }
+        }
+        cost.wall_seconds += run.wall_seconds;
+        cost.cpu_seconds += run.cpu_seconds;
+    }
+    let variance = |(sum, square): (&[f64; 3], &[f64; 3])| {
+        [0, 1, 2].map(|c| ((square[c] - sum[c] * sum[c] / n) / (n * (n - 1.0))).max(0.0))
+    };
+    let variance = sums.iter().zip(&squares).map(variance).collect();
+    let mean = sums.into_iter().map(|sum| sum.map(|v| v / n)).collect();
+    let origin = Origin::File(PathBuf::new());
+    (Reference { mean, variance: Some(variance), origin, own_relmse: 0.0 }, cost)
+}

@@ -1,0 +1,123 @@
+//! A scene to render many times.
+
+use super::usage;
+use crate::scene::description::{self, LightKind, MaterialKind, SceneDescription};
+use crate::scene::{Compiled, compile};
+use crate::{Error, ErrorKind, Result, sampling};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// A compiled scene with what the benchmark has to know of it.
+pub struct Work {
+    /// The file's name without its extension.
+    pub name: String,
+    /// The scene.
+    pub compiled: Compiled,
+    /// How it was described.
+    pub description: SceneDescription,
+    /// Wall time of compiling it.
+    pub compile_seconds: f64,
+    /// One line each.
+    pub warnings: Vec<String>,
+    /// Of the scene file and all files that it names.
+    pub content_hash: u64,
+}
+
+impl Work {
+    /// Reads and compiles a scene, at another resolution if one is given.
+    pub fn new(path: &Path, resolution: Option<&str>) -> Result<Self> {
+        let parsed = description::parse_file(path)?;
+        let (mut description, mut warnings) = (parsed.description, parsed.warnings);
+        if let Some(text) = resolution {
+            (description.film.width, description.film.height) = parse_resolution(text)?;
+        }
+        let started = Instant::now();
+        let compiled = compile(&description)?;
+        let compile_seconds = started.elapsed().as_secs_f64();
+        warnings.extend_from_slice(&compiled.warnings);
+        let name = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned());
+        let content_hash = content_hash(path)?;
+        Ok(Self { name, compiled, description, compile_seconds, warnings, content_hash })
+    }
+
+    /// Width and height.
+    pub fn size(&self) -> [u32; 2] {
+        [self.compiled.film.width, self.compiled.film.height]
+    }
+
+    /// Pixels of a picture.
+    pub fn pixels(&self) -> usize {
+        self.size().into_iter().map(|n| n as usize).product()
+    }
+
+    /// Whether camera paths can find everything: they miss caustics of lights without extent.
+    pub fn camera_paths_see_all(&self) -> bool {
+        let without_extent = |kind: &LightKind| match kind {
+            LightKind::Point { .. } | LightKind::Spot { .. } | LightKind::Beam { .. } => true,
+            LightKind::Directional { angular_diameter_degrees, .. } => *angular_diameter_degrees == 0.0,
+        };
+        !(self.has_specular() && self.description.lights.iter().any(|light| without_extent(&light.kind)))
+    }
+
+    /// Whether light paths can find everything: they miss what the camera sees in mirrors and through glass, and lights at
+    /// infinity that it sees.
+    pub fn light_paths_see_all(&self) -> bool {
+        let disc = |kind: &LightKind| matches!(kind, LightKind::Directional { angular_diameter_degrees, .. } if *angular_diameter_degrees > 0.0);
+        let infinite = self.description.environment.is_some() || self.description.lights.iter().any(|l| disc(&l.kind));
+        !self.has_specular() && !infinite
+    }
+
+    fn has_specular(&self) -> bool {
+        let materials = &self.description.materials;
+        let of_objects = self.description.objects.iter().filter_map(|object| object.material);
+        of_objects.into_iter().any(|index| !matches!(materials[index].1.kind, MaterialKind::Diffuse { .. }))
+    }
+}
+
+/// `WIDTHxHEIGHT`.
+fn parse_resolution(text: &str) -> Result<(u32, u32)> {
+    let legal = |n: &u32| (1..=1 << 16).contains(n);
+    let parse = |text: &str| text.parse().ok().filter(legal);
+    let sizes = text.split_once(['x', 'X']).and_then(|(w, h)| Some((parse(w)?, parse(h)?)));
+    sizes.ok_or_else(|| usage(format!("--resolution {text}: expected WIDTHxHEIGHT in pixels, such as 640x480")))
+}
+
+/// Hash of a scene file's bytes and of those of every file named in it.
+fn content_hash(path: &Path) -> Result<u64> {
+    let failed = |e: std::io::Error| Error::new(ErrorKind::FileNotFound, format!("cannot be read: {e}")).in_file(path);
+    let bytes = std::fs::read(path).map_err(failed)?;
+    let mut hash = hash_bytes(0, &bytes);
+    let mut named = Vec::new();
+    if let Ok(value) = serde_json::from_slice(&bytes) {
+        named_files(&value, path.parent().unwrap_or(Path::new("")), &mut named);
+    }
+    for file in named {
+        hash = hash_bytes(hash, &std::fs::read(file).unwrap_or_default());
+    }
+    Ok(hash)
+}
+
+fn named_files(value: &serde_json::Value, folder: &Path, files: &mut Vec<PathBuf>) {
+    match value {
+        serde_json::Value::Object(map) => {
+            for (key, value) in map {
+                match value.as_str().filter(|_| key == "file") {
+                    Some(name) => files.push(folder.join(name)),
+                    None => named_files(value, folder, files),
+                }
+            }
+        }
+        serde_json::Value::Array(list) => list.iter().for_each(|value| named_files(value, folder, files)),
+        _ => {}
+    }
+}
+
+/// Hash of bytes and what came before them.
+pub fn hash_bytes(start: u64, bytes: &[u8]) -> u64 {
+    let start = sampling::mix(start ^ bytes.len() as u64);
+    bytes.chunks(8).fold(start, |hash, chunk| {
+        let mut word = [0; 8];
+        word[..chunk.len()].copy_from_slice(chunk);
+        sampling::mix(hash ^ u64::from_le_bytes(word))
+    })
+}
