@@ -26,7 +26,7 @@ pub type Answer = Result<Value, Box<dyn Error>>;
 /// A function of one JSON value.
 pub type Function = fn(&Value) -> Answer;
 
-const SUBJECTS: [&[(&str, Function)]; 14] = [
+const SUBJECTS: [&[(&str, Function)]; 15] = [
     adaptation::FUNCTIONS,
     appearance::FUNCTIONS,
     chroma::FUNCTIONS,

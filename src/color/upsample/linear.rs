@@ -56,7 +56,8 @@ impl Cholesky {
             }
             let diagonal = entry(i, i);
             let pivot = diagonal - dot(&row, &row);
-            if !(pivot > SMALLEST_PIVOT * diagonal) {
+            // NaN fails as well.
+            if pivot.is_nan() || pivot <= SMALLEST_PIVOT * diagonal {
                 return Err(i);
             }
             row.push(pivot.sqrt());

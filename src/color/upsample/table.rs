@@ -368,14 +368,14 @@ impl Node {
         Self {
             lightness: if sum <= 1.0 { lightness } else { 1.0 - lightness },
             saturation: 1.0 - (1.0 - (chroma / room).min(1.0)).sqrt(),
-            hue: sextant as f64 + if sextant % 2 == 0 { towards_middle } else { 1.0 - towards_middle },
+            hue: sextant as f64 + if sextant.is_multiple_of(2) { towards_middle } else { 1.0 - towards_middle },
         }
     }
 
     fn rgb(&self) -> [f64; 3] {
         let sextant = (self.hue as usize).min(5);
         let part = self.hue - sextant as f64;
-        let towards_middle = if sextant % 2 == 0 { part } else { 1.0 - part };
+        let towards_middle = if sextant.is_multiple_of(2) { part } else { 1.0 - part };
         let room = steepened(steepened(2.0 * self.lightness.min(1.0 - self.lightness))).max(DARKEST);
         let rest = 1.0 - self.saturation;
         let chroma = room * (1.0 - rest * rest);
