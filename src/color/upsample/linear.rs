@@ -2,14 +2,18 @@
 
 /// Solves T x = r with T of the given diagonal and −1 beside it, for four right-hand sides; `None` if T is singular.
 pub(super) fn solve_tridiagonal(mut diagonal: Vec<f64>, mut right: Vec<[f64; 4]>) -> Option<Vec<[f64; 4]>> {
-    for j in 1..diagonal.len() {
-        let factor = 1.0 / diagonal[j - 1];
-        diagonal[j] -= factor;
-        right[j] = std::array::from_fn(|k| right[j][k] + factor * right[j - 1][k]);
+    // The diagonal becomes the reciprocals of the pivots.
+    for j in 0..diagonal.len() {
+        if j > 0 {
+            let factor = diagonal[j - 1];
+            diagonal[j] -= factor;
+            right[j] = std::array::from_fn(|k| right[j][k] + factor * right[j - 1][k]);
+        }
+        diagonal[j] = 1.0 / diagonal[j];
     }
     for j in (0..diagonal.len()).rev() {
         let after = right.get(j + 1).copied().unwrap_or_default();
-        right[j] = std::array::from_fn(|k| (right[j][k] + after[k]) / diagonal[j]);
+        right[j] = std::array::from_fn(|k| (right[j][k] + after[k]) * diagonal[j]);
     }
     right.iter().flatten().all(|x| x.is_finite()).then_some(right)
 }

@@ -3,13 +3,11 @@
 //! Nothing bounds it from above, so light saturated colours exceed 1: as published.
 
 use super::linear::{solve_dense, solve_tridiagonal};
-use super::target::{KNOTS, REFLECTANCE};
+use super::target::{COARSE_STEP, REFLECTANCE};
 use crate::spectrum::{LAMBDA_MIN_NM, PiecewiseLinear, Spectrum};
 use crate::{Error, ErrorKind, Result};
 use glam::DVec3;
 
-/// Distance of knots, nm.
-const STEP_NM: usize = 5;
 /// Most steps of the interior-point method; 15 are usual.
 const MAX_STEPS: usize = 100;
 /// Largest accepted error of the colour, relative to its largest component.
@@ -37,29 +35,16 @@ pub(super) fn solve(rgb: DVec3) -> Option<Spectrum> {
     if !(scale > 0.0 && scale.is_finite()) {
         return None;
     }
-    let programme = Programme { weights: coarse_weights(), target: rgb / scale };
+    let programme = Programme { weights: &REFLECTANCE.coarse_weights, target: rgb / scale };
     let values = programme.solve()?;
-    let knots = (0..values.len()).map(|i| LAMBDA_MIN_NM + (STEP_NM * i) as f64).collect();
+    let knots = (0..values.len()).map(|i| LAMBDA_MIN_NM + (COARSE_STEP * i) as f64).collect();
     let values = values.into_iter().map(|value| value * scale).collect();
     Some(Spectrum::PiecewiseLinear(PiecewiseLinear::from_valid_knots(knots, values)))
 }
 
-/// Weights of the knots 5 nm apart: between them a spectrum is linear, also at the knots in 1 nm.
-fn coarse_weights() -> Vec<DVec3> {
-    let mut coarse = vec![DVec3::ZERO; (KNOTS - 1) / STEP_NM + 1];
-    for (j, &weight) in REFLECTANCE.weights.iter().enumerate() {
-        let (cell, rest) = (j / STEP_NM, (j % STEP_NM) as f64 / STEP_NM as f64);
-        coarse[cell] += weight * (1.0 - rest);
-        if rest > 0.0 {
-            coarse[cell + 1] += weight * rest;
-        }
-    }
-    coarse
-}
-
 /// Least ½ ∑ (rⱼ₊₁ − rⱼ)² with ∑ weightⱼ rⱼ = target and r ≥ 0, for a target of about unit size.
-struct Programme {
-    weights: Vec<DVec3>,
+struct Programme<'a> {
+    weights: &'a [DVec3],
     target: DVec3,
 }
 
@@ -70,7 +55,7 @@ struct Iterate {
     bounds: Vec<f64>,
 }
 
-impl Programme {
+impl Programme<'_> {
     /// Primal-dual interior-point steps.
     fn solve(&self) -> Option<Vec<f64>> {
         let n = self.weights.len();
@@ -152,7 +137,7 @@ mod tests {
 
     /// Where a value is positive, second differences are a combination of the weights.
     fn assert_optimal(spectrum: &Spectrum) {
-        let (weights, table) = (coarse_weights(), spectrum.tabulate());
+        let (weights, table) = (&REFLECTANCE.coarse_weights, spectrum.tabulate());
         let r = table.values();
         let most = table.max();
         let free: Vec<usize> = (1..r.len() - 1).filter(|&j| r[j] > 1e-6 * most).collect();

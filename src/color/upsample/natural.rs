@@ -7,10 +7,10 @@
 //! A user's own measured spectra can be anchors: each is reproduced at its colour, and what it differs by from the
 //! learnt prior fades out over 40 units of CIE Lab around it (interpolation by a compact kernel \[Wendland1995\]).
 
-use super::data::{resampled, rows};
+use super::data::rows;
 use super::linear::Cholesky;
 use super::smoothest::{Link, solve_curve};
-use super::target::{KNOTS, REFLECTANCE, knots_nm, spectrum_of};
+use super::target::{KNOTS, REFLECTANCE, knots_nm, refined, spectrum_of};
 use super::{cannot_be_a_reflectance, check_components};
 use crate::color::RgbSpace;
 use crate::math;
@@ -40,7 +40,7 @@ static PRIOR: LazyLock<Prior> = LazyLock::new(Prior::embedded);
 struct Prior {
     /// Centres of Gaussians in CIE Lab, and the amount of each curve there.
     centers: Vec<(DVec3, [f64; CURVES])>,
-    /// The curves at the knots.
+    /// The curves at the coarse knots.
     curves: Vec<[f64; CURVES]>,
 }
 
@@ -49,10 +49,13 @@ impl Prior {
         let centers = rows::<{ 3 + CURVES }>(include_str!("../../../data/recovery/natural_centers.csv"));
         let split = |row: &[f64; 3 + CURVES]| (DVec3::from_slice(row), std::array::from_fn(|k| row[3 + k]));
         let curves = rows::<{ 1 + CURVES }>(include_str!("../../../data/recovery/natural_curves.csv"));
-        Self { centers: centers.iter().map(split).collect(), curves: resampled(&curves, &knots_nm()) }
+        Self {
+            centers: centers.iter().map(split).collect(),
+            curves: curves.iter().map(|row| std::array::from_fn(|k| row[1 + k])).collect(),
+        }
     }
 
-    /// What to add to the smoothest logit of a colour.
+    /// What to add to the smoothest logit of a colour, at the coarse knots.
     fn residual(&self, lab: DVec3) -> Vec<f64> {
         let chroma_squared = lab.y * lab.y + lab.z * lab.z;
         let factor = -math::exp_m1(-0.5 * chroma_squared / (GREY_WIDTH * GREY_WIDTH));
@@ -184,11 +187,23 @@ pub(super) fn base_curve(color: DVec3) -> Option<Vec<f64>> {
     if color.x == color.y && color.y == color.z {
         return (0.0 < color.x && color.x < 1.0).then(|| vec![Link::Logistic.inverse(color.x); KNOTS]);
     }
-    let weights = &REFLECTANCE.weights;
+    let around = |curve: Vec<f64>| solve_curve(&REFLECTANCE.weights, color, Link::Logistic, Some(&curve));
+    // Coarse knots do nearly all of it; next to the limit of what a reflectance can be they miss some colours.
+    coarse_curve(color)
+        .and_then(|coarse| around(refined(&coarse)))
+        .or_else(|| with_residual(&REFLECTANCE.weights, color, &refined(&PRIOR.residual(lab(color)))))
+}
+
+/// The logit of a colour that is not grey at the coarse knots; `None` if there is none.
+pub(super) fn coarse_curve(color: DVec3) -> Option<Vec<f64>> {
+    with_residual(&REFLECTANCE.coarse_weights, color, &PRIOR.residual(lab(color)))
+}
+
+/// The smoothest logit plus a residual, or as much of it as there is a solution with.
+fn with_residual(weights: &[DVec3], color: DVec3, residual: &[f64]) -> Option<Vec<f64>> {
     let smoothest = solve_curve(weights, color, Link::Logistic, None)?;
-    let residual = PRIOR.residual(lab(color));
     let with_share = |share: f64| {
-        let around: Vec<f64> = smoothest.iter().zip(&residual).map(|(z, f)| z + share * f).collect();
+        let around: Vec<f64> = smoothest.iter().zip(residual).map(|(z, f)| z + share * f).collect();
         solve_curve(weights, color, Link::Logistic, Some(&around))
     };
     SHARES.into_iter().find_map(with_share).or(Some(smoothest))

@@ -56,13 +56,14 @@ pub fn projected(rgb: [f64; 3], space: &RgbSpace) -> Result<Projected> {
     if let Some(bad) = rgb.into_iter().find(|c| !c.is_finite()) {
         return Err(Error::new(ErrorKind::NotFinite, format!("{bad} in {rgb:?}; expected finite components")));
     }
-    if rgb.into_iter().all(|c| (0.0..=1.0).contains(&c))
+    let target = &*REFLECTANCE;
+    let color = target.rgb_from(space) * DVec3::from(rgb);
+    let is_grey = rgb[0] == rgb[1] && rgb[1] == rgb[2];
+    if (is_grey || is_within_srgb(color))
         && let Ok(spectrum) = Natural::new().reflectance(rgb, space)
     {
         return Ok(Projected { spectrum, rgb, saturation: 1.0 });
     }
-    let target = &*REFLECTANCE;
-    let color = target.rgb_from(space) * DVec3::from(rgb);
     let (projected, saturation, spectrum) = towards_grey(target, color);
     let rgb = if saturation == 1.0 { rgb } else { (target.space_from_rgb(space) * projected).to_array() };
     Ok(Projected { spectrum, rgb, saturation })
@@ -70,8 +71,7 @@ pub fn projected(rgb: [f64; 3], space: &RgbSpace) -> Result<Projected> {
 
 /// A colour inside the limit of reflectances: the same one, or one moved towards the grey of its luminance.
 pub(super) fn within_limit(color: DVec3) -> DVec3 {
-    // Every colour of sRGB is inside.
-    if color.min_element() >= 0.0 && color.max_element() <= 1.0 {
+    if is_within_srgb(color) {
         return color;
     }
     let luminance = REFLECTANCE.xyz_from_rgb.row(1).dot(color);
@@ -81,6 +81,11 @@ pub(super) fn within_limit(color: DVec3) -> DVec3 {
     let grey = DVec3::splat(luminance);
     let limit = limit_of_saturation(&REFLECTANCE, luminance, color - grey) * (1.0 - MARGIN);
     grey + limit.min(1.0) * (color - grey)
+}
+
+/// Every colour of sRGB is a reflectance.
+fn is_within_srgb(color: DVec3) -> bool {
+    color.min_element() >= 0.0 && color.max_element() <= 1.0
 }
 
 /// The colour that is left, its share of saturation and its reflectance.
@@ -93,7 +98,7 @@ fn towards_grey(target: &Target, color: DVec3) -> (DVec3, f64, Spectrum) {
     let grey = DVec3::splat(luminance);
     let limit = limit_of_saturation(target, luminance, color - grey);
     // Colours within the limit need no margin; next to it a solution may be too steep to be found.
-    let first = if limit > 1.0 { Some(1.0) } else { None };
+    let first = (limit > 1.0 - MARGIN).then_some(1.0);
     let rest = FALLBACKS.into_iter().map(|share| share * (1.0 - MARGIN) * limit.min(1.0));
     for saturation in first.into_iter().chain(rest) {
         let candidate = grey + saturation * (color - grey);

@@ -41,9 +41,10 @@ impl Link {
             Self::Exponential => [math::exp(z); 3],
             Self::Logistic => {
                 let e = math::exp(-z.abs());
-                let small = e / (1.0 + e);
-                let value = if z < 0.0 { small } else { 1.0 / (1.0 + e) };
-                let slope = small / (1.0 + e);
+                let large = 1.0 / (1.0 + e);
+                let small = e * large;
+                let value = if z < 0.0 { small } else { large };
+                let slope = small * large;
                 [value, slope, slope * (1.0 - 2.0 * value)]
             }
         }
@@ -118,35 +119,33 @@ struct Linearization {
     curvatures: Vec<DVec3>,
 }
 
-/// A difference from the curve around which to be smooth, and the multipliers of the three constraints.
+/// A difference from the curve around which to be smooth, with the multipliers of the three constraints.
 struct Iterate {
     y: Vec<f64>,
     multipliers: DVec3,
+    lin: Linearization,
 }
 
 impl Problem<'_> {
     fn solve(&self, y: Vec<f64>) -> Option<Vec<f64>> {
-        let mut at = Iterate { y, multipliers: DVec3::ZERO };
-        let mut error = self.color_error(&at.y);
+        let mut at = self.iterate(y, DVec3::ZERO);
         for step in 0..MAX_STEPS {
-            let lin = self.linearize(&at.y);
-            if step > 0 && error < NEWTON_REGION {
-                let norm = optimality(&at, &lin);
+            if step > 0 && at.color_error() < NEWTON_REGION {
+                let norm = at.optimality();
                 if norm < SOLVED {
                     break;
                 }
-                if let Some(next) = self.newton_step(&at, &lin, norm) {
-                    error = self.color_error(&next.y);
+                if let Some(next) = self.newton_step(&at, norm) {
                     at = next;
                     continue;
                 }
             }
-            match self.gauss_newton_step(&at, &lin, error) {
-                Some((next, next_error)) => (at, error) = (next, next_error),
+            match self.gauss_newton_step(&at) {
+                Some(next) => at = next,
                 None => break,
             }
         }
-        (error <= COLOR_TOLERANCE).then_some(at.y)
+        (at.color_error() <= COLOR_TOLERANCE).then_some(at.y)
     }
 
     /// z at the knots.
@@ -154,36 +153,27 @@ impl Problem<'_> {
         y.iter().enumerate().map(|(j, y)| self.around.map_or(*y, |around| around[j] + y))
     }
 
-    fn color(&self, y: &[f64]) -> DVec3 {
-        self.weights.iter().zip(self.curve(y)).map(|(&w, z)| w * self.link.eval(z)[0]).sum()
-    }
-
-    fn color_error(&self, y: &[f64]) -> f64 {
-        (self.target - self.color(y)).abs().max_element()
-    }
-
-    fn linearize(&self, y: &[f64]) -> Linearization {
+    fn iterate(&self, y: Vec<f64>, multipliers: DVec3) -> Iterate {
         let mut color = DVec3::ZERO;
         let (mut slopes, mut curvatures) = (Vec::with_capacity(y.len()), Vec::with_capacity(y.len()));
-        for (&weight, z) in self.weights.iter().zip(self.curve(y)) {
+        for (&weight, z) in self.weights.iter().zip(self.curve(&y)) {
             let [value, slope, curvature] = self.link.eval(z);
             color += weight * value;
             slopes.push(weight * slope);
             curvatures.push(weight * curvature);
         }
-        Linearization { residual: self.target - color, slopes, curvatures }
+        Iterate { y, multipliers, lin: Linearization { residual: self.target - color, slopes, curvatures } }
     }
 
     /// The smoothest curve under the linearised constraints, approached as far as it lowers the error.
-    fn gauss_newton_step(&self, at: &Iterate, lin: &Linearization, error: f64) -> Option<(Iterate, f64)> {
-        let (goal, multipliers) = smoothest_under_linear_constraints(&at.y, lin)?;
+    fn gauss_newton_step(&self, at: &Iterate) -> Option<Iterate> {
+        let (goal, multipliers) = smoothest_under_linear_constraints(&at.y, &at.lin)?;
         let mut fraction = 1.0;
         for _ in 0..MAX_HALVINGS {
-            let y: Vec<f64> = at.y.iter().zip(&goal).map(|(y, goal)| y + fraction * (goal - y)).collect();
-            let next_error = self.color_error(&y);
-            if next_error < error * (1.0 - 1e-4 * fraction) {
-                let multipliers = at.multipliers.lerp(multipliers, fraction);
-                return Some((Iterate { y, multipliers }, next_error));
+            let y = at.y.iter().zip(&goal).map(|(y, goal)| y + fraction * (goal - y)).collect();
+            let next = self.iterate(y, at.multipliers.lerp(multipliers, fraction));
+            if next.color_error() < at.color_error() * (1.0 - 1e-4 * fraction) {
+                return Some(next);
             }
             fraction *= 0.5;
         }
@@ -191,15 +181,15 @@ impl Problem<'_> {
     }
 
     /// A full Newton step, if it halves the norm of the optimality conditions.
-    fn newton_step(&self, at: &Iterate, lin: &Linearization, norm: f64) -> Option<Iterate> {
-        let gradient = gradient(at, lin);
+    fn newton_step(&self, at: &Iterate, norm: f64) -> Option<Iterate> {
+        let lin = &at.lin;
         // H = (second differences) − ∑ multiplier · curvature; the right-hand sides are −gradient and the three slopes.
         let last = at.y.len() - 1;
         let diagonal = lin.curvatures.iter().enumerate().map(|(j, c)| {
             let neighbours = if j == 0 || j == last { 1.0 } else { 2.0 };
             neighbours + REGULARIZATION - at.multipliers.dot(*c)
         });
-        let right = gradient.iter().zip(&lin.slopes).map(|(&g, s)| [-g, s.x, s.y, s.z]);
+        let right = at.gradient().zip(&lin.slopes).map(|(g, s)| [-g, s.x, s.y, s.z]);
         let solution = solve_tridiagonal(diagonal.collect(), right.collect())?;
         // Multipliers such that the step meets the linearised constraints.
         let mut system = [[0.0; 4]; 3];
@@ -216,25 +206,30 @@ impl Problem<'_> {
         let change = DVec3::from(solve_dense(system)?);
         let step = |x: &[f64; 4]| x[0] + DVec3::new(x[1], x[2], x[3]).dot(change);
         let y = at.y.iter().zip(&solution).map(|(y, x)| y + step(x)).collect();
-        let next = Iterate { y, multipliers: at.multipliers + change };
-        (optimality(&next, &self.linearize(&next.y)) < 0.5 * norm).then_some(next)
+        let next = self.iterate(y, at.multipliers + change);
+        (next.optimality() < 0.5 * norm).then_some(next)
     }
 }
 
-/// Gradient of ½ ∑ (yⱼ₊₁ − yⱼ)² − multipliers · colour.
-fn gradient(at: &Iterate, lin: &Linearization) -> Vec<f64> {
-    let last = at.y.len() - 1;
-    let component = |j: usize| {
-        let left = if j > 0 { at.y[j] - at.y[j - 1] } else { 0.0 };
-        let right = if j < last { at.y[j + 1] - at.y[j] } else { 0.0 };
-        left - right - at.multipliers.dot(lin.slopes[j])
-    };
-    (0..=last).map(component).collect()
-}
+impl Iterate {
+    fn color_error(&self) -> f64 {
+        self.lin.residual.abs().max_element()
+    }
 
-/// How far an iterate is from the optimality conditions: norm of the gradient plus colour error.
-fn optimality(at: &Iterate, lin: &Linearization) -> f64 {
-    gradient(at, lin).iter().map(|g| g * g).sum::<f64>().sqrt() + lin.residual.abs().max_element()
+    /// Gradient of ½ ∑ (yⱼ₊₁ − yⱼ)² − multipliers · colour.
+    fn gradient(&self) -> impl Iterator<Item = f64> {
+        let last = self.y.len() - 1;
+        (0..=last).map(move |j| {
+            let left = if j > 0 { self.y[j] - self.y[j - 1] } else { 0.0 };
+            let right = if j < last { self.y[j + 1] - self.y[j] } else { 0.0 };
+            left - right - self.multipliers.dot(self.lin.slopes[j])
+        })
+    }
+
+    /// How far it is from the optimality conditions: norm of the gradient plus colour error.
+    fn optimality(&self) -> f64 {
+        self.gradient().map(|g| g * g).sum::<f64>().sqrt() + self.color_error()
+    }
 }
 
 /// The y of least ∑ (yⱼ₊₁ − yⱼ)² that meets the linearised constraints, and its multipliers.

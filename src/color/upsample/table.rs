@@ -8,9 +8,9 @@
 use super::check_components;
 use super::data::{resampled, rows};
 use super::linear::solve_dense;
-use super::natural::base_curve;
+use super::natural::{base_curve, coarse_curve};
 use super::projection::within_limit;
-use super::target::{KNOTS, REFLECTANCE, knots_nm};
+use super::target::{COARSE_STEP, KNOTS, REFLECTANCE, knots_nm};
 use crate::Result;
 use crate::color::RgbSpace;
 use crate::math;
@@ -78,11 +78,11 @@ impl Basis {
         Self { curves, groups }
     }
 
-    /// The coefficients nearest to a logit at the knots, by least squares.
+    /// The coefficients nearest to a logit at the coarse knots, by least squares.
     fn fit(&self, logit: &[f64]) -> [f64; TERMS] {
         let mut amounts = [0.0; TERMS];
         let mut squares = [0.0; TERMS];
-        for (curves, z) in self.curves.iter().zip(logit) {
+        for (curves, z) in self.curves.iter().step_by(COARSE_STEP).zip(logit) {
             for (term, &curve) in curves.iter().enumerate() {
                 amounts[term] += f64::from(curve) * z;
                 squares[term] += f64::from(curve * curve);
@@ -266,7 +266,8 @@ impl Table {
             return [0.0; TERMS];
         }
         let color = within_limit(self.rgb_from_space * DVec3::from(node.rgb()));
-        let Some(curve) = base_curve(color) else {
+        let every_fifth = |curve: Vec<f64>| curve.into_iter().step_by(COARSE_STEP).collect();
+        let Some(curve) = coarse_curve(color).or_else(|| base_curve(color).map(every_fifth)) else {
             // A projection that ended at black or white.
             return [0.0; TERMS];
         };

@@ -9,6 +9,8 @@ use std::sync::LazyLock;
 
 /// Knots of upsampled spectra: 360, 361, …, 830 nm.
 pub(super) const KNOTS: usize = 471;
+/// Every so many knots there is a coarse one: 360, 365, …, 830 nm.
+pub(super) const COARSE_STEP: usize = 5;
 
 /// Reflectances under D65. White is that of the integrated table, so that r = 1 is exactly [1, 1, 1].
 pub(super) static REFLECTANCE: LazyLock<Target> = LazyLock::new(|| {
@@ -32,6 +34,8 @@ pub(super) struct Target {
     pub(super) rgb_from_xyz: DMat3,
     /// RGB of a spectrum that is 1 at one knot and 0 at all others, linear between.
     pub(super) weights: Vec<DVec3>,
+    /// The same for spectra that are linear between coarse knots.
+    pub(super) coarse_weights: Vec<DVec3>,
 }
 
 impl Target {
@@ -40,8 +44,9 @@ impl Target {
         let srgb = RgbSpace::srgb();
         let xyz_from_rgb = bradford(srgb.white_xyz(), white) * srgb.xyz_from_rgb;
         let rgb_from_xyz = xyz_from_rgb.inverse();
-        let weights = xyz_weights.into_iter().map(|w| rgb_from_xyz * w).collect();
-        Self { white, xyz_from_rgb, rgb_from_xyz, weights }
+        let weights: Vec<DVec3> = xyz_weights.into_iter().map(|w| rgb_from_xyz * w).collect();
+        let coarse_weights = coarse(&weights);
+        Self { white, xyz_from_rgb, rgb_from_xyz, weights, coarse_weights }
     }
 
     /// Linear RGB of a space to the RGB of `weights`.
@@ -69,6 +74,28 @@ impl Target {
 /// The knots' wavelengths, nm.
 pub(super) fn knots_nm() -> Vec<f64> {
     (0..KNOTS).map(|i| LAMBDA_MIN_NM + i as f64).collect()
+}
+
+/// Weights of the coarse knots: what is linear between them is so between all knots too.
+fn coarse(weights: &[DVec3]) -> Vec<DVec3> {
+    let mut coarse = vec![DVec3::ZERO; (KNOTS - 1) / COARSE_STEP + 1];
+    for (j, &weight) in weights.iter().enumerate() {
+        let (cell, rest) = (j / COARSE_STEP, (j % COARSE_STEP) as f64 / COARSE_STEP as f64);
+        coarse[cell] += weight * (1.0 - rest);
+        if rest > 0.0 {
+            coarse[cell + 1] += weight * rest;
+        }
+    }
+    coarse
+}
+
+/// Values at all knots of what is linear between the coarse ones.
+pub(super) fn refined(coarse: &[f64]) -> Vec<f64> {
+    let value = |j: usize| {
+        let (cell, rest) = (j / COARSE_STEP, (j % COARSE_STEP) as f64 / COARSE_STEP as f64);
+        coarse.get(cell + 1).map_or(coarse[cell], |right| (1.0 - rest) * coarse[cell] + rest * right)
+    };
+    (0..KNOTS).map(value).collect()
 }
 
 /// The spectrum with these values at the knots.
@@ -112,6 +139,15 @@ mod tests {
         let xyz = xyz_of_reflectance(&spectrum_of(values), illuminant::d65(), Observer::cie_1931_2deg());
         assert!((REFLECTANCE.xyz_from_rgb * rgb - xyz).abs().max_element() < 1e-14);
         assert!((REFLECTANCE.rgb_of(&[1.0; KNOTS]) - 1.0).abs().max_element() < 1e-14);
+    }
+
+    #[test]
+    fn coarse_knots_have_the_colour_of_what_is_linear_between() {
+        let coarse: Vec<f64> = (0..95).map(|j| (j * 37 % 101) as f64 / 100.0).collect();
+        let fine = refined(&coarse);
+        assert_eq!((fine[0], fine[5], fine[470]), (coarse[0], coarse[1], coarse[94]));
+        let sum: DVec3 = REFLECTANCE.coarse_weights.iter().zip(&coarse).map(|(&w, &v)| w * v).sum();
+        assert!((REFLECTANCE.rgb_of(&fine) - sum).abs().max_element() < 1e-14);
     }
 
     #[test]
