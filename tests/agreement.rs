@@ -153,7 +153,7 @@ fn wide_sun() {
     scene["lights"] = json!([{ "type": "directional", "direction": [-0.2, -1, -0.3], "irradiance": 1,
                                "angular_diameter_degrees": 10 }]);
     scene["objects"].as_array_mut().unwrap().pop();
-    agree("wide sun", &scene, [256, 256, 64]);
+    agree("wide sun", &scene, [1024, 256, 64]);
 }
 
 /// A thin lens in front and a lens of glass above, a Gaussian filter.
