@@ -1,18 +1,14 @@
 //! Values of the colour library as JSON, for validation/run.py.
 //!
-//! Reads one request from standard input and answers on standard output. A table is
-//! `{"wavelengths_nm": […], "values": […]}`. Keys of the request, all needed:
+//! Reads one request from standard input and answers on standard output. Keys of the request, all needed:
 //!
-//! * `illuminants`: names; `reflectances`, `emissions`: tables; `lines`: `[centre, width]` in nm;
-//! * `blackbodies`: temperatures in K, `wavelengths_nm` to evaluate them at;
-//! * `transfer`: components to encode and to decode;
 //! * `reflectance_rgb`, `emission_rgb`: linear sRGB colours to upsample;
-//! * `realisable_rgb`: linear colours to look for a reflectance of, in every space.
+//! * `realisable_rgb`: linear colours to look for a reflectance of, in seven spaces.
 
-use abbe::color::{self, Observer, RgbSpace, illuminant, upsample};
-use abbe::spectrum::{PiecewiseLinear, Spectrum};
+use abbe::color::{RgbSpace, upsample};
+use abbe::spectrum::Spectrum;
 use abbe::{Error, ErrorKind, Result};
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use serde_json::{Value, json};
 use std::io::Read;
 
@@ -36,53 +32,11 @@ fn main() -> std::process::ExitCode {
 
 fn answer(text: &str) -> Result<Value> {
     let request: Value = serde_json::from_str(text).map_err(|e| Error::new(ErrorKind::Syntax, e.to_string()))?;
-    let observer = Observer::cie_1931_2deg();
-    let names = list(&request, "illuminants")?.iter().map(name).collect::<Result<Vec<_>>>()?;
-    let lamps = names.iter().map(|name| illuminant::by_name(name)).collect::<Result<Vec<_>>>()?;
-    let reflectances = list(&request, "reflectances")?.iter().map(table).collect::<Result<Vec<_>>>()?;
-    let emissions = list(&request, "emissions")?.iter().map(table).collect::<Result<Vec<_>>>()?;
-    let lines = list(&request, "lines")?.iter().map(line).collect::<Result<Vec<_>>>()?;
-    let bodies = numbers(&request["blackbodies"])?.into_iter().map(Spectrum::blackbody).collect::<Result<Vec<_>>>()?;
-    let xyz = |spectrum: &Spectrum| color::xyz_of_emission(spectrum, observer).to_array();
-    let under_lamps = |reflectance: &Spectrum| -> Vec<[f64; 3]> {
-        lamps.iter().map(|lamp| color::xyz_of_reflectance(reflectance, lamp, observer).to_array()).collect()
-    };
     Ok(json!({
-        "illuminant_names": illuminant::names().collect::<Vec<_>>(),
-        "illuminant_xyz": lamps.iter().map(xyz).collect::<Vec<_>>(),
-        "reflectance_xyz": reflectances.iter().map(under_lamps).collect::<Vec<_>>(),
-        "emission_xyz": emissions.iter().map(xyz).collect::<Vec<_>>(),
-        "line_xyz": lines.iter().map(xyz).collect::<Vec<_>>(),
-        "blackbodies": blackbodies(&request)?,
-        "blackbody_xyz": bodies.iter().map(xyz).collect::<Vec<_>>(),
-        "spaces": RgbSpace::all().iter().map(space).collect::<Vec<_>>(),
-        "encoded": numbers(&request["transfer"])?.into_iter().map(color::srgb_encode).collect::<Vec<_>>(),
-        "decoded": numbers(&request["transfer"])?.into_iter().map(color::srgb_decode).collect::<Vec<_>>(),
         "reflectance_spectra": upsampled(&request, "reflectance_rgb", upsample::reflectance)?,
         "realisable": realisable(&request)?,
         "emission_spectra": upsampled(&request, "emission_rgb", upsample::emission)?,
     }))
-}
-
-fn blackbodies(request: &Value) -> Result<Vec<Vec<f64>>> {
-    let lambdas = numbers(&request["wavelengths_nm"])?;
-    let radiances = |kelvin| {
-        let body = Spectrum::blackbody(kelvin)?;
-        Ok(lambdas.iter().map(|&lambda| body.eval(lambda)).collect())
-    };
-    numbers(&request["blackbodies"])?.into_iter().map(radiances).collect()
-}
-
-fn space(space: &RgbSpace) -> Value {
-    // Rows as printed in a book; glam keeps columns.
-    let rows = |matrix: DMat3| matrix.transpose().to_cols_array_2d();
-    json!({
-        "name": space.name,
-        "primaries": space.primaries,
-        "white": space.white,
-        "xyz_from_rgb": rows(space.xyz_from_rgb),
-        "rgb_from_xyz": rows(space.rgb_from_xyz),
-    })
 }
 
 /// The upsampled spectra at 360, 361, …, 830 nm.
@@ -98,13 +52,17 @@ fn upsampled(
     list(request, key)?.iter().map(spectrum).collect()
 }
 
+/// Spaces that colours are looked for in.
+const SPACES: [&str; 7] = ["srgb", "display-p3", "rec2020", "adobe-rgb", "acescg", "aces2065-1", "prophoto-rgb"];
+
 /// By space: whether each colour has a reflectance.
 fn realisable(request: &Value) -> Result<Value> {
     let colors = list(request, "realisable_rgb")?.iter().map(rgb).collect::<Result<Vec<_>>>()?;
     let in_space = |space: &RgbSpace| -> Vec<bool> {
         colors.iter().map(|&color| upsample::reflectance(color, space).is_ok()).collect()
     };
-    Ok(RgbSpace::all().iter().map(|space| (space.name.to_owned(), json!(in_space(space)))).collect())
+    let found = |name| RgbSpace::by_name(name).map(|space| (name.to_owned(), json!(in_space(space))));
+    SPACES.into_iter().map(found).collect()
 }
 
 fn rgb(value: &Value) -> Result<[f64; 3]> {
@@ -114,10 +72,6 @@ fn rgb(value: &Value) -> Result<[f64; 3]> {
 fn list<'a>(value: &'a Value, key: &str) -> Result<&'a [Value]> {
     let missing = || Error::new(ErrorKind::Missing, format!("no list {key:?} in the request"));
     value[key].as_array().map(Vec::as_slice).ok_or_else(missing)
-}
-
-fn name(value: &Value) -> Result<&str> {
-    value.as_str().ok_or_else(|| Error::new(ErrorKind::WrongType, format!("{value}; expected a name")))
 }
 
 fn numbers(value: &Value) -> Result<Vec<f64>> {
@@ -131,16 +85,4 @@ fn numbers_exactly(value: &Value, count: usize) -> Result<Vec<f64>> {
         return Ok(numbers);
     }
     Err(Error::new(ErrorKind::WrongType, format!("{value}; expected {count} numbers")))
-}
-
-fn table(value: &Value) -> Result<Spectrum> {
-    let table = PiecewiseLinear::new(numbers(&value["wavelengths_nm"])?, numbers(&value["values"])?)?;
-    Ok(Spectrum::PiecewiseLinear(table))
-}
-
-fn line(value: &Value) -> Result<Spectrum> {
-    let [center_nm, fwhm_nm] = numbers_exactly(value, 2)?[..] else {
-        return Err(Error::new(ErrorKind::WrongType, format!("{value}; expected centre and width")));
-    };
-    Spectrum::line(center_nm, fwhm_nm)
 }

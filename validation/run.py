@@ -114,13 +114,8 @@ def all_rows(only, frozen):
 
 def other_rows():
     import rgb
-    import tables
-    import xyz
 
-    rows = tables.check()
-    values = color_values({**xyz.request(), **rgb.request()})
-    rows += xyz.check(values)
-    rows += rgb.check(values)
+    rows = rgb.check(color_values(rgb.request()))
     if (HERE / "glass_check.py").exists():
         import glass_check
 

@@ -96,7 +96,7 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
                 };
                 let receiver = Receiver { surface: &surface, bsdf: &bsdf, frame: &frame, wo };
                 let direct = direct_light::<INTERIORS>(walk, context.techniques, before, receiver, u);
-                radiance += direct * walk.throughput * radiance_ratio::<INTERIORS>(walk, context);
+                radiance += direct * walk.throughput * radiance_ratio::<INTERIORS>(walk, &context.camera_indices);
                 if !walk.diffused() {
                     break;
                 }
@@ -114,15 +114,16 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
     radiance
 }
 
-fn medium_indices(walk: &mut Walk) -> Indices {
+/// Indices of what the path is in.
+pub fn medium_indices(walk: &mut Walk) -> Indices {
     let medium = walk.workspace.interiors.medium(walk.scene);
     walk.workspace.spectra.indices(walk.scene, medium)
 }
 
 /// (n_camera / n_here)²: radiance is collected here and recorded there. What refraction changes on the way telescopes to
 /// this, so that no path carries it.
-fn radiance_ratio<const INTERIORS: bool>(walk: &mut Walk, context: &Context) -> SampledSpectrum {
-    let (true, Some(camera)) = (INTERIORS, &context.camera_indices) else { return SampledSpectrum::ONE };
+pub fn radiance_ratio<const INTERIORS: bool>(walk: &mut Walk, camera: &Option<Indices>) -> SampledSpectrum {
+    let (true, Some(camera)) = (INTERIORS, camera) else { return SampledSpectrum::ONE };
     let here = medium_indices(walk);
     if here == *camera {
         return SampledSpectrum::ONE;
@@ -154,7 +155,7 @@ fn escaped<const INTERIORS: bool>(walk: &mut Walk, context: &Context, origin: Or
     if radiance.is_zero() {
         return radiance;
     }
-    radiance * walk.throughput * radiance_ratio::<INTERIORS>(walk, context)
+    radiance * walk.throughput * radiance_ratio::<INTERIORS>(walk, &context.camera_indices)
 }
 
 /// Light emitted by a surface that a ray has met.
@@ -177,7 +178,7 @@ fn emitted<const INTERIORS: bool>(
     let pdf = |from| light.pdf_surface(from, direction, surface);
     let weight = hit_weight(scene, context.techniques, index, (origin, seen), &exit, pdf);
     let emission = walk.workspace.spectra.spectrum(scene, light.spectrum);
-    emission * walk.throughput * weight * radiance_ratio::<INTERIORS>(walk, context)
+    emission * walk.throughput * weight * radiance_ratio::<INTERIORS>(walk, &context.camera_indices)
 }
 
 /// Weight of a light found by running into it, against the other techniques that could have found the same path.

@@ -13,12 +13,13 @@
 //! | E D X* D L, local light: what bounces off the spot of a beam | light paths |
 //! | E S+ D X* D L, local light | merging; without it camera paths |
 
+use super::guide::Guide;
 use crate::sampling::balance_heuristic;
 use crate::scene::{Exit, Scene};
 use std::f32::consts::FRAC_1_PI;
 
 /// Which techniques take part.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone)]
 pub enum Techniques {
     /// Camera paths alone.
     Path,
@@ -26,11 +27,16 @@ pub enum Techniques {
     CameraAndLight {
         /// Light paths traced for each camera path.
         light_paths_per_camera_path: f32,
+        /// Where they start.
+        guide: Guide,
         /// Whether photons are merged where the camera sees a diffuse surface through specular ones.
         merging: bool,
     },
     /// Light paths alone.
-    Light,
+    Light {
+        /// Where they start.
+        guide: Guide,
+    },
 }
 
 /// The first diffuse surface of a camera path.
@@ -45,6 +51,23 @@ pub enum Seen {
 }
 
 impl Techniques {
+    /// Light paths traced for each camera path; 1 where there are no camera paths.
+    pub fn light_paths_per_camera_path(&self) -> f32 {
+        match self {
+            Self::Path => 0.0,
+            Self::CameraAndLight { light_paths_per_camera_path, .. } => *light_paths_per_camera_path,
+            Self::Light { .. } => 1.0,
+        }
+    }
+
+    /// Where light paths start, if there are any.
+    pub fn guide(&self) -> Option<&Guide> {
+        match self {
+            Self::Path => None,
+            Self::CameraAndLight { guide, .. } | Self::Light { guide } => Some(guide),
+        }
+    }
+
     /// Whether light paths start from a light.
     fn draws(&self, scene: &Scene, light: u32) -> bool {
         matches!(self, Self::CameraAndLight { .. }) && scene.caustic_table.probability(light as usize) > 0.0
@@ -84,11 +107,16 @@ impl Techniques {
     /// density of point and direction. Everything between is shared (for specular vertices étendue is conserved, and
     /// reflection is chosen with the same probability both ways), so the ratio needs no bookkeeping along the path.
     pub fn light_path_density(&self, scene: &Scene, light: u32, exit: &Exit) -> Option<f32> {
-        let (Self::CameraAndLight { light_paths_per_camera_path, .. }, Some(aim)) = (self, &scene.caustic_aim) else {
+        let (Self::CameraAndLight { light_paths_per_camera_path, guide, .. }, Some(aim)) = (self, &scene.caustic_aim)
+        else {
             return None;
         };
-        let drawn = scene.caustic_table.probability(light as usize) * light_paths_per_camera_path;
-        let density = scene.lights[light as usize].emission_density(exit, aim)?;
-        (drawn > 0.0).then(|| drawn * density / FRAC_1_PI)
+        let drawn = guide.probability(light) * light_paths_per_camera_path;
+        if drawn == 0.0 {
+            return None;
+        }
+        let source = &scene.lights[light as usize];
+        let density = source.emission_density(exit, aim)? * guide.density(light, source, exit, aim);
+        Some(drawn * density / FRAC_1_PI)
     }
 }

@@ -33,6 +33,12 @@ pub struct Counters {
 }
 
 impl Counters {
+    /// Adds another thread's, and tells its rays.
+    pub fn count(&mut self, other: Self) -> u64 {
+        self.add(other);
+        other.rays
+    }
+
     /// Adds another thread's.
     pub fn add(&mut self, other: Self) {
         self.rays += other.rays;

@@ -5,7 +5,11 @@ mod cie1976;
 mod cie1994;
 mod cie2000;
 mod cmc;
+mod hybrid;
+mod names;
+mod ucs;
 
+use crate::color::space::{Din99, Din99Factors};
 use crate::math;
 use glam::DVec3;
 
@@ -13,6 +17,9 @@ pub use cie1976::cie1976;
 pub use cie1994::{cie1994, cie1994_textiles};
 pub use cie2000::{Parametric, cie2000, cie2000_weighted};
 pub use cmc::{cmc, cmc_weighted};
+pub use hybrid::{hyab, hych};
+pub use names::{LabDifference, by_name, names};
+pub use ucs::{CamSpace, cam_ucs, din99, din99_distance, din99_textiles, itp};
 
 /// Length of (a, b): chroma.
 fn chroma(lab: DVec3) -> f64 {

@@ -28,11 +28,11 @@ impl PowerSpace {
         }
     }
 
-    fn from_xyz(&self, xyz: DVec3) -> DVec3 {
+    fn encode(&self, xyz: DVec3) -> DVec3 {
         self.opponent_from_compressed * signed_pow(self.cones_from_xyz * xyz, self.exponent)
     }
 
-    fn to_xyz(&self, opponent: DVec3) -> DVec3 {
+    fn decode(&self, opponent: DVec3) -> DVec3 {
         self.xyz_from_cones * signed_pow(self.compressed_from_opponent * opponent, 1.0 / self.exponent)
     }
 }
@@ -65,6 +65,11 @@ static IPT: LazyLock<PowerSpace> = LazyLock::new(|| {
     PowerSpace::new(HPE_D65, 0.43, [[0.4, 0.4, 0.2], [4.455, -4.851, 0.396], [0.8056, 0.3572, -1.1628]])
 });
 
+/// The matrices of IPT, XYZ to cones and compressed cones to I, P, T.
+pub(super) fn ipt_matrices() -> [DMat3; 2] {
+    [IPT.cones_from_xyz, IPT.opponent_from_compressed]
+}
+
 static IPT_RAGOO2021: LazyLock<PowerSpace> = LazyLock::new(|| {
     PowerSpace::new(
         [[0.4321, 0.6906, -0.0930], [-0.1793, 1.1458, 0.0226], [0.0631, 0.1532, 0.7226]],
@@ -76,6 +81,7 @@ static IPT_RAGOO2021: LazyLock<PowerSpace> = LazyLock::new(|| {
 static IGPGTG: LazyLock<PowerSpace> = LazyLock::new(|| {
     // The responses are divided by these before the power; a factor of the rows does the same.
     let divisors = [18.36, 21.46, 19_435.0];
+    #[expect(clippy::approx_constant, reason = "-0.318 is no 1/π")]
     let rows = [[2.968, 2.741, -0.649], [1.237, 5.969, -0.173], [-0.318, 0.387, 2.311]];
     let scaled = [0, 1, 2].map(|i| rows[i].map(|x| x / divisors[i]));
     PowerSpace::new(scaled, 0.427, [[0.117, 1.464, 0.130], [8.285, -8.361, 21.400], [-1.208, 2.412, -36.530]])
@@ -101,42 +107,42 @@ pub fn xyz_from_oklab(oklab: DVec3) -> DVec3 {
 
 /// I, P, T of XYZ under D65 \[Ebner1998\]; white is near (1, 0, 0).
 pub fn ipt_from_xyz(xyz: DVec3) -> DVec3 {
-    IPT.from_xyz(xyz)
+    IPT.encode(xyz)
 }
 
 /// Inverse of [`ipt_from_xyz`].
 pub fn xyz_from_ipt(ipt: DVec3) -> DVec3 {
-    IPT.to_xyz(ipt)
+    IPT.decode(ipt)
 }
 
 /// I, P, T optimised for chromatic differences \[Ragoo2021\], of XYZ under D65.
 pub fn ipt_ragoo2021_from_xyz(xyz: DVec3) -> DVec3 {
-    IPT_RAGOO2021.from_xyz(xyz)
+    IPT_RAGOO2021.encode(xyz)
 }
 
 /// Inverse of [`ipt_ragoo2021_from_xyz`].
 pub fn xyz_from_ipt_ragoo2021(ipt: DVec3) -> DVec3 {
-    IPT_RAGOO2021.to_xyz(ipt)
+    IPT_RAGOO2021.decode(ipt)
 }
 
 /// Ig, Pg, Tg of XYZ under D65 \[Hellwig2020\].
 pub fn igpgtg_from_xyz(xyz: DVec3) -> DVec3 {
-    IGPGTG.from_xyz(xyz)
+    IGPGTG.encode(xyz)
 }
 
 /// Inverse of [`igpgtg_from_xyz`].
 pub fn xyz_from_igpgtg(igpgtg: DVec3) -> DVec3 {
-    IGPGTG.to_xyz(igpgtg)
+    IGPGTG.decode(igpgtg)
 }
 
 /// sUCS I, a, b of XYZ under D65 \[Li2024\]; white is near (100, 0, 0).
 pub fn sucs_from_xyz(xyz: DVec3) -> DVec3 {
-    SUCS.from_xyz(xyz)
+    SUCS.encode(xyz)
 }
 
 /// Inverse of [`sucs_from_xyz`].
 pub fn xyz_from_sucs(sucs: DVec3) -> DVec3 {
-    SUCS.to_xyz(sucs)
+    SUCS.decode(sucs)
 }
 
 #[cfg(test)]
