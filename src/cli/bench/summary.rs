@@ -217,7 +217,7 @@ mod tests {
             };
             Level::new(spp as u64, [-0.05, 0.05].repeat(4).into_iter().map(run).collect(), 1e-4, 0.0)
         };
-        (0..count).map(|k| level(k)).collect()
+        (0..count).map(level).collect()
     }
 
     #[test]
