@@ -51,8 +51,8 @@
 //!
 //! # Words
 //!
-//! * A **lane** is one of the eight wavelengths that a path carries; the **hero** is the lane that goes on where a
-//!   wavelength-dependent refraction parts them.
+//! * A **lane** is one of the eight wavelengths that a path carries. Where a wavelength-dependent refraction parts them some
+//!   go on as a **bundle**, each its own way; the **hero** is the lane that goes on where only one does.
 //! * An **interior** is a transparent object that a path is inside of; where several overlap the highest **priority** is
 //!   there.
 //! * A **replicate** is an independently scrambled part of the samples, from which the film knows its own error.
@@ -107,6 +107,7 @@
 //! * `[Fujifilm2022]` Fujifilm, F-Log data sheet 1.1 and F-Log2 data sheet 1.0, 2022.
 //! * `[GoPro2016]` GoPro, Protune, 2016.
 //! * `[H273]` ITU-T H.273, Coding-independent code points for video signal type identification, 2021.
+//! * `[HachisukaJensen2009]` T. Hachisuka and H. W. Jensen, Stochastic progressive photon mapping, ACM TOG 28(5), 2009.
 //! * `[Haines2019]` E. Haines et al., Precision improvements for ray/sphere intersection, Ray Tracing Gems 7, 2019.
 //! * `[Harris1978]` F. J. Harris, On the use of windows for harmonic analysis with the DFT, Proc. IEEE 66(1), 1978.
 //! * `[Heitz2019]` E. Heitz, A low-distortion map between triangle and square, 2019.
@@ -127,6 +128,7 @@
 //!   Phys. Soc. 41, 2002.
 //! * `[Kodak1995]` Kodak, Conversion of 10-bit log film data to 8-bit linear or video data, Cineon, 1995.
 //! * `[Krystek1985]` M. Krystek, An algorithm to calculate correlated colour temperature, Color Res. Appl. 10, 1985.
+//! * `[KnausZwicker2011]` C. Knaus and M. Zwicker, Progressive photon mapping: a probabilistic approach, ACM TOG 30(3), 2011.
 //! * `[LaineKarras2011]` S. Laine and T. Karras, Stratified sampling for stochastic transparency, CGF 30(4), 2011.
 //! * `[Lam1985]` K. M. Lam, Metamerism and colour constancy, PhD thesis, Bradford, 1985.
 //! * `[Leica2022]` Leica, L-Log reference manual 1.6, 2022.

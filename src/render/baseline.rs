@@ -9,10 +9,10 @@ use super::walk::BASELINE_LANES;
 use crate::math;
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, LANES, SampledSpectrum, Wavelengths};
 
-/// Wavelength where the density 1 / cosh²(`RATE` (λ − `PEAK_NM`)) is largest.
+/// Wavelength where the density 1 / cosh²((λ − `PEAK_NM`) / `WIDTH_NM`) is largest.
 const PEAK_NM: f64 = 538.0;
-/// 1/nm.
-const RATE: f64 = 0.0072;
+/// 1 / 0.0072 nm.
+const WIDTH_NM: f64 = 1250.0 / 9.0;
 
 fn tanh(x: f64) -> f64 {
     let e = math::exp_m1(2.0 * x);
@@ -21,15 +21,15 @@ fn tanh(x: f64) -> f64 {
 
 /// Wavelengths for a random number: the first four lanes carry the path, the others are copies without weight.
 pub fn wavelengths(u: f32) -> Wavelengths {
-    let (low, high) = (tanh(RATE * (LAMBDA_MIN_NM - PEAK_NM)), tanh(RATE * (LAMBDA_MAX_NM - PEAK_NM)));
+    let (low, high) = (tanh((LAMBDA_MIN_NM - PEAK_NM) / WIDTH_NM), tanh((LAMBDA_MAX_NM - PEAK_NM) / WIDTH_NM));
     let (mut lambda_nm, mut pdf) = ([0.0; LANES], [0.0; LANES]);
     for lane in 0..LANES {
         let v = (f64::from(u) + (lane % BASELINE_LANES) as f64 / BASELINE_LANES as f64).fract();
         let t = low + (high - low) * v;
         // atanh t = ½ ln((1 + t) / (1 − t)); 1 / cosh² = 1 − tanh².
-        let lambda = PEAK_NM + 0.5 * math::ln((1.0 + t) / (1.0 - t)) / RATE;
+        let lambda = PEAK_NM + 0.5 * WIDTH_NM * math::ln((1.0 + t) / (1.0 - t));
         lambda_nm[lane] = lambda.clamp(LAMBDA_MIN_NM, LAMBDA_MAX_NM) as f32;
-        pdf[lane] = (RATE * (1.0 - t * t) / (high - low)) as f32;
+        pdf[lane] = ((1.0 - t * t) / (WIDTH_NM * (high - low))) as f32;
     }
     Wavelengths { lambda_nm, pdf }
 }

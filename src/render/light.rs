@@ -129,9 +129,9 @@ impl LightTracer<'_> {
                     Crossing::Passed => continue,
                     Crossing::Ended => break,
                     Crossing::Scattered => focused |= !diffused,
-                    Crossing::Parted(bundle) => {
-                        for way in 0..bundle.ways {
-                            if walk.set_out(&bundle, way) {
+                    Crossing::Parted(ways) => {
+                        for way in 0..ways {
+                            if walk.set_out(way) {
                                 self.follow::<DISPERSION, INTERIORS>(walk, start, true, collector);
                             }
                         }

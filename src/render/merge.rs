@@ -98,9 +98,9 @@ fn follow_specular<const DISPERSION: bool, const INTERIORS: bool>(
                 Crossing::Passed => continue,
                 Crossing::Scattered => {}
                 Crossing::Ended => return,
-                Crossing::Parted(bundle) => {
-                    for way in 0..bundle.ways {
-                        if walk.set_out(&bundle, way) {
+                Crossing::Parted(ways) => {
+                    for way in 0..ways {
+                        if walk.set_out(way) {
                             follow_specular::<DISPERSION, INTERIORS>(walk, max_depth, visit);
                         }
                     }

@@ -74,9 +74,9 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
                 Crossing::Passed => continue,
                 Crossing::Ended => break,
                 Crossing::Scattered => origin = Origin::Delta,
-                Crossing::Parted(bundle) => {
-                    for way in 0..bundle.ways {
-                        if walk.set_out(&bundle, way) {
+                Crossing::Parted(ways) => {
+                    for way in 0..ways {
+                        if walk.set_out(way) {
                             radiance += follow::<DISPERSION, INTERIORS>(walk, context, Origin::Delta, seen);
                         }
                     }
@@ -222,7 +222,7 @@ fn direct_light<const INTERIORS: bool>(
         radiance += light_from::<INTERIORS>(walk, receiver, &scene.lights[draw.index], draw.probability, [u[5], u[6]]);
     }
     for &light in &scene.local_lights {
-        if techniques.camera_owns_local_light(scene, light, seen) {
+        if techniques.camera_owns_local_light(light, seen) {
             radiance += light_from::<INTERIORS>(walk, receiver, &scene.lights[light as usize], 1.0, [u[5], u[6]]);
         }
     }

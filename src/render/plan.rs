@@ -7,7 +7,8 @@ use super::guide::Guide;
 use super::merge::Merging;
 use super::techniques::Techniques;
 use super::walk::Parting;
-use crate::scene::{Integrator, Scene};
+use crate::sampling::AliasTable;
+use crate::scene::{Integrator, Light, LightKind, Scene};
 use crate::spectrum::LANES;
 use std::fmt;
 
@@ -51,12 +52,8 @@ impl Plan {
         let techniques = match integrator {
             Integrator::Path | Integrator::Hero => Techniques::Path,
             Integrator::Light => Techniques::Light { guide: Guide::plain(scene.emission_table.clone(), scene) },
-            Integrator::Auto | Integrator::Merge if scene.caustic_table.is_empty() => Techniques::Path,
-            Integrator::Auto | Integrator::Merge => Techniques::CameraAndLight {
-                light_paths_per_camera_path: 1.0,
-                guide: Guide::plain(scene.caustic_table.clone(), scene),
-                merging: false,
-            },
+            Integrator::Auto => camera_and_light(scene, scene.caustic_table.clone()),
+            Integrator::Merge => camera_and_light(scene, every_light(scene)),
         };
         Self {
             camera_parting: if integrator == Integrator::Hero { Parting::Terminate } else { ways(USUAL_WAYS) },
@@ -78,6 +75,24 @@ impl Plan {
             pilot_rays,
         }
     }
+}
+
+/// Camera paths, and light paths if there are lights in the table and something that focuses them.
+fn camera_and_light(scene: &Scene, lights: AliasTable) -> Techniques {
+    if lights.is_empty() || scene.caustic_aim.is_none() {
+        return Techniques::Path;
+    }
+    let guide = Guide::plain(lights, scene);
+    Techniques::CameraAndLight { light_paths_per_camera_path: 1.0, guide, merging: false }
+}
+
+/// All lights that light paths can start from but the environment, by power.
+fn every_light(scene: &Scene) -> AliasTable {
+    let weight = |(index, light): (usize, &Light)| match light.kind {
+        LightKind::Environment => 0.0,
+        _ => f64::from(scene.emission_table.probability(index)),
+    };
+    AliasTable::new(&scene.lights.iter().enumerate().map(weight).collect::<Vec<_>>())
 }
 
 impl fmt::Display for Decisions {

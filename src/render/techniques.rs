@@ -69,8 +69,8 @@ impl Techniques {
     }
 
     /// Whether light paths start from a light.
-    fn draws(&self, scene: &Scene, light: u32) -> bool {
-        matches!(self, Self::CameraAndLight { .. }) && scene.caustic_table.probability(light as usize) > 0.0
+    fn draws(&self, light: u32) -> bool {
+        matches!(self, Self::CameraAndLight { guide, .. } if guide.probability(light) > 0.0)
     }
 
     fn merges(&self) -> bool {
@@ -84,17 +84,17 @@ impl Techniques {
             Seen::Directly(camera) => {
                 self.light_path_density(scene, light, exit).map_or(1.0, |light| balance_heuristic(camera, light))
             }
-            Seen::ThroughSpecular if self.merges() && self.draws(scene, light) => 0.0,
+            Seen::ThroughSpecular if self.merges() && self.draws(light) => 0.0,
             Seen::ThroughSpecular => 1.0,
         }
     }
 
     /// Whether camera paths ask a local light at a diffuse surface, having seen what they have before it.
-    pub fn camera_owns_local_light(&self, scene: &Scene, light: u32, seen: Seen) -> bool {
+    pub fn camera_owns_local_light(&self, light: u32, seen: Seen) -> bool {
         match seen {
             Seen::Nothing => true,
-            Seen::Directly(_) => !self.draws(scene, light),
-            Seen::ThroughSpecular => !(self.merges() && self.draws(scene, light)),
+            Seen::Directly(_) => !self.draws(light),
+            Seen::ThroughSpecular => !(self.merges() && self.draws(light)),
         }
     }
 

@@ -1,6 +1,6 @@
 //! What camera paths and light paths have in common: a ray that carries lanes through surfaces and media.
 
-use super::workspace::Workspace;
+use super::workspace::{Interiors, Workspace};
 use crate::bsdf::{Bsdf, Conductor, Dielectric, Diffuse, Incidence, Lanes, Mirror};
 use crate::geometry::{Frame, Ray};
 use crate::optics;
@@ -59,29 +59,30 @@ pub enum Parting {
     Terminate,
 }
 
-/// Lanes about to part: what each of them sets out from.
-#[derive(Debug, Clone, Copy)]
+/// Lanes that have parted: what each of them sets out from. A lane on its own never parts again, so a path has one of these.
+#[derive(Debug, Default)]
 pub struct Bundle {
-    surface: Surface,
+    surface: Option<Surface>,
     /// Directions of the lanes that are not reflected totally.
     directions: [Option<Vec3>; LANES],
-    throughput: SampledSpectrum,
+    throughput: [f32; LANES],
     hero: usize,
-    /// How many lanes go on.
-    pub ways: usize,
+    ways: u8,
     depth: u32,
     passed: u32,
+    /// What is past the surface.
+    interiors: Interiors,
 }
 
 /// What a dielectric surface did.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Crossing {
     /// Nothing: the volume on the other side is the same, or hidden by one of higher priority.
     Passed,
     /// Reflected or refracted.
     Scattered,
-    /// Refracted into a direction for each lane: follow them one after the other, see [`Walk::set_out`].
-    Parted(Bundle),
+    /// Refracted into a direction for each lane: so many go on, follow them one after the other by [`Walk::set_out`].
+    Parted(u8),
     /// Nothing is left of the path.
     Ended,
 }
@@ -151,19 +152,14 @@ impl<'a> Walk<'a> {
         cross(self.workspace);
         if DISPERSION && self.lanes == Lanes::Shared && boundary.is_dispersive() {
             if let Parting::Ways(ways @ 2..) = self.parting {
-                self.workspace.parted_interiors.copy_from(&self.workspace.interiors);
-                let directions = std::array::from_fn(|lane| boundary.refracted(&incidence, lane));
-                let &mut Self { throughput, hero, depth, passed, .. } = self;
-                let ways = usize::from(ways);
-                return Crossing::Parted(Bundle {
-                    surface: *surface,
-                    directions,
-                    throughput,
-                    hero,
-                    ways,
-                    depth,
-                    passed,
-                });
+                let Workspace { interiors, bundle, .. } = &mut *self.workspace;
+                bundle.surface = Some(*surface);
+                bundle.directions = std::array::from_fn(|lane| boundary.refracted(&incidence, lane));
+                bundle.throughput = self.throughput.lanes();
+                (bundle.hero, bundle.ways) = (self.hero, ways);
+                (bundle.depth, bundle.passed) = (self.depth, self.passed);
+                bundle.interiors.copy_from(interiors);
+                return Crossing::Parted(ways);
             }
             self.leave_to_hero();
         }
@@ -194,20 +190,17 @@ impl<'a> Walk<'a> {
     }
 
     /// Goes back to where lanes parted and follows the `way`-th of those that go on; `false` if nothing of it is left.
-    pub fn set_out(&mut self, bundle: &Bundle, way: usize) -> bool {
-        let stride = LANES / bundle.ways;
-        let lane = (bundle.hero + way * stride) % LANES;
-        let (Some(direction), throughput) = (bundle.directions[lane], bundle.throughput.only(lane) * stride as f32)
-        else {
-            return false;
-        };
-        self.ray = bundle.surface.spawn(direction);
-        (self.throughput, self.lanes) = (throughput, Lanes::Bundled(lane));
+    pub fn set_out(&mut self, way: u8) -> bool {
+        let Workspace { interiors, bundle, .. } = &mut *self.workspace;
+        let stride = LANES / usize::from(bundle.ways);
+        let lane = (bundle.hero + usize::from(way) * stride) % LANES;
+        let (Some(surface), Some(direction)) = (bundle.surface, bundle.directions[lane]) else { return false };
+        self.ray = surface.spawn(direction);
+        self.throughput = SampledSpectrum::new(bundle.throughput).only(lane) * stride as f32;
+        (self.lanes, self.parting) = (Lanes::Bundled(lane), Parting::Ways(bundle.ways));
         (self.depth, self.passed) = (bundle.depth, bundle.passed);
-        self.parting = Parting::Ways(bundle.ways as u8);
-        let Workspace { interiors, parted_interiors, .. } = &mut *self.workspace;
-        interiors.copy_from(parted_interiors);
-        !throughput.is_zero()
+        interiors.copy_from(&bundle.interiors);
+        !self.throughput.is_zero()
     }
 
     /// To be told of every diffuse surface, before the path goes on from it: ways that a bundle took end there, but for

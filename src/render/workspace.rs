@@ -1,6 +1,7 @@
 //! What a thread keeps from path to path, so that no path allocates: spectra at the path's wavelengths, and the list of
 //! transparent objects that it is inside of.
 
+use super::walk::Bundle;
 use crate::bsdf::Indices;
 use crate::scene::{MediumId, Scene, SpectrumId, Surface};
 use crate::spectrum::{SampledSpectrum, Wavelengths};
@@ -17,8 +18,8 @@ pub struct Workspace {
     pub shadow_interiors: Interiors,
     /// The same past the surface at hand.
     pub beyond: Interiors,
-    /// The same past the surface where lanes have parted.
-    pub parted_interiors: Interiors,
+    /// Where the path's lanes have parted.
+    pub bundle: Bundle,
     /// What has been counted.
     pub counters: Counters,
 }
@@ -54,7 +55,7 @@ impl Workspace {
             interiors: Interiors::default(),
             shadow_interiors: Interiors::default(),
             beyond: Interiors::default(),
-            parted_interiors: Interiors::default(),
+            bundle: Bundle::default(),
             counters: Counters::default(),
         }
     }
