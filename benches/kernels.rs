@@ -156,7 +156,7 @@ fn film(criterion: &mut Criterion) {
         .collect();
     group.throughput(Throughput::Elements(COUNT as u64));
     group.bench_function("splats of light paths", |bencher| {
-        bencher.iter(|| film.add_splats(1, 1, black_box(&splats)));
+        bencher.iter(|| film.add_splats(1, 1, 1.0, black_box(&splats)));
     });
     let filter = Filter::blackman_harris(1.5);
     each(&mut group, "pixels of a splat under Blackman-Harris", &points, |u| {
