@@ -56,12 +56,10 @@ pub fn ln(x: f64) -> f64 {
 }
 
 /// Natural logarithm of 1 + x, accurate near 0.
-/// ln(1 + x), accurate near 0.
 pub fn ln_1p(x: f64) -> f64 {
     libm::log1p(x)
 }
 
-/// Cube root, with the sign of x.
 /// Logarithm to the base 2.
 pub fn log2(x: f64) -> f64 {
     libm::log2(x)
@@ -82,7 +80,7 @@ pub fn exp10(x: f64) -> f64 {
     libm::exp10(x)
 }
 
-/// Cube root; that of a negative number is negative.
+/// Cube root, with the sign of x.
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
@@ -97,14 +95,14 @@ pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
 }
 
-/// Natural logarithm of the gamma function of x > 0.
-pub fn ln_gamma(x: f64) -> f64 {
-    libm::lgamma(x)
-}
-
 /// |x| to the power y with the sign of x: the power mirrored at 0, which has a value for every x.
 pub fn signed_pow(x: f64, y: f64) -> f64 {
     pow(x.abs(), y).copysign(x)
+}
+
+/// Natural logarithm of the gamma function of x > 0.
+pub fn ln_gamma(x: f64) -> f64 {
+    libm::lgamma(x)
 }
 
 /// Sine and cosine of an f32 angle in radians.

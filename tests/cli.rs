@@ -270,7 +270,7 @@ fn usage_errors_exit_with_2() {
 #[test]
 fn what_is_not_there_yet_is_refused_not_ignored() {
     let folder = Folder::with_scene();
-    for command in ["explain", "develop", "spectrum", "upsample", "completions"] {
+    for command in ["explain", "develop"] {
         folder.abbe(&[command]).fails(2, &[command, "not there yet"]);
         folder.abbe(&[command, "scene.json", "--threshold", "1"]).fails(2, &[command, "not there yet"]);
     }

@@ -17,13 +17,14 @@ import sys
 import time
 from pathlib import Path
 
+from binary import PROFILE, abbe_binary
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 ENVIRONMENT = HERE / ".venv"
 REQUIREMENTS = HERE / "requirements.txt"
 PYTHONS = [(3, 14), (3, 13), (3, 12), (3, 11)]  # what colour-science 0.4.7 and numpy 2.4 support
 INSIDE = "ABBE_VALIDATION_INSIDE"
-PROFILE = os.environ.get("ABBE_VALIDATION_PROFILE", "release")  # "dev" compiles faster
 
 
 def venv_python():
@@ -53,26 +54,6 @@ def ensure_environment():
     pip = [str(venv_python()), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     subprocess.run([*pip, "-r", str(REQUIREMENTS)], check=True)
     stamp.write_text(digest + "\n")
-
-
-def target_folder():
-    # Cargo reads the variable relative to where it is started, which is always ROOT here.
-    return ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
-
-
-def abbe_binary():
-    """The command, built if it is not there."""
-    binary = target_folder() / ("debug" if PROFILE == "dev" else PROFILE) / ("abbe.exe" if os.name == "nt" else "abbe")
-    if not binary.exists():
-        subprocess.run(["cargo", "build", "--profile", PROFILE, "--quiet"], cwd=ROOT, check=True)
-    return binary
-
-
-def color_values(request):
-    """What the crate's colour library answers; the example is brought up to date first."""
-    command = ["cargo", "run", "--profile", PROFILE, "--quiet", "--example", "color_values"]
-    done = subprocess.run(command, cwd=ROOT, input=json.dumps(request), stdout=subprocess.PIPE, text=True, check=True)
-    return json.loads(done.stdout)
 
 
 def evaluate_all(requests):
@@ -113,9 +94,7 @@ def all_rows(only, frozen):
 
 
 def other_rows():
-    import rgb
-
-    rows = rgb.check(color_values(rgb.request()))
+    rows = []
     if (HERE / "glass_check.py").exists():
         import glass_check
 

@@ -2,15 +2,20 @@
 
 pub mod bench;
 pub mod compare;
+pub mod completions;
 pub mod export;
 pub mod glass;
 mod heat;
+mod plot;
 mod process;
 pub mod render;
 pub mod scene;
+pub mod spectrum;
+mod swatch;
+pub mod upsample;
 
 use crate::{Error, ErrorKind, Result};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::io::Write;
 use std::process::ExitCode;
 
@@ -43,12 +48,12 @@ enum Command {
     Compare(compare::CompareArgs),
     /// Run time against error: integrators, settings and other renderers on the same scenes
     Bench(Box<bench::BenchArgs>),
-    /// Colour of a spectrum (not yet)
-    Spectrum(NotYet),
-    /// Spectrum of a colour (not yet)
-    Upsample(NotYet),
-    /// Shell completions (not yet)
-    Completions(NotYet),
+    /// Print the colour of spectra from a file
+    Spectrum(Box<spectrum::SpectrumArgs>),
+    /// Make a spectrum of an RGB colour
+    Upsample(Box<upsample::UpsampleArgs>),
+    /// Print completions for a shell
+    Completions(completions::CompletionsArgs),
 }
 
 /// Takes anything, as it is refused anyway.
@@ -66,7 +71,10 @@ pub fn main() -> ExitCode {
         );
         return ExitCode::FAILURE;
     }
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return refuse(&error),
+    };
     match run(&cli.command) {
         Ok(code) => code,
         Err(error) => {
@@ -75,6 +83,33 @@ pub fn main() -> ExitCode {
             ExitCode::from(error.kind.exit_code())
         }
     }
+}
+
+/// Help and version are data; anything else is a usage error, told in one line.
+fn refuse(error: &clap::Error) -> ExitCode {
+    if !error.use_stderr() || error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        // If the stream is closed there is nobody to tell.
+        let _ = error.print();
+    } else {
+        let _ = writeln!(std::io::stderr(), "{}", one_line(&error.to_string()));
+    }
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
+
+/// The message of a parser's error without its usage and advice to ask for help.
+fn one_line(text: &str) -> String {
+    // Lists that are longer than this do not help: the nearest name does.
+    const LONGEST_LIST: usize = 240;
+    let lines =
+        text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more"));
+    let mut message = String::new();
+    let helps = |line: &&str| !(line.is_empty() || line.starts_with("tip: to pass") || line.len() > LONGEST_LIST);
+    for line in lines.filter(helps) {
+        let joint = if line.starts_with(['[', 't']) { "; " } else { " " };
+        message += if message.is_empty() { "" } else { joint };
+        message += line.strip_prefix("error: ").unwrap_or(line);
+    }
+    message
 }
 
 fn run(command: &Command) -> Result<ExitCode> {
@@ -87,9 +122,9 @@ fn run(command: &Command) -> Result<ExitCode> {
         Command::Develop(args) => not_yet("develop", args),
         Command::Compare(args) => compare::run(args),
         Command::Bench(args) => bench::run(args),
-        Command::Spectrum(args) => not_yet("spectrum", args),
-        Command::Upsample(args) => not_yet("upsample", args),
-        Command::Completions(args) => not_yet("completions", args),
+        Command::Spectrum(args) => done(spectrum::run(args)),
+        Command::Upsample(args) => done(upsample::run(args)),
+        Command::Completions(args) => done(completions::run(args, Cli::command())),
     }
 }
 
@@ -101,7 +136,41 @@ fn write_data(out: &mut dyn Write, bytes: &[u8]) -> Result<()> {
     }
 }
 
+fn usage(message: impl Into<String>) -> Error {
+    Error::new(ErrorKind::Usage, message)
+}
+
 fn not_yet(name: &str, args: &NotYet) -> Result<ExitCode> {
     let with = if args.arguments.is_empty() { "" } else { " (and its arguments)" };
     Err(Error::new(ErrorKind::Usage, format!("`abbe {name}`{with} is not there yet")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn usage_errors_are_one_line() {
+        let message = |args: &[&str]| one_line(&Cli::try_parse_from(args).unwrap_err().to_string());
+        assert_eq!(
+            message(&["abbe", "glass", "--att", "5"]),
+            "unexpected argument '--att' found; tip: a similar argument exists: '--at'"
+        );
+        assert_eq!(message(&["abbe", "glass", "--colour"]), "unexpected argument '--colour' found");
+        assert_eq!(message(&["abbe", "render"]), "the following required arguments were not provided: <SCENE>");
+        let kinds = message(&["abbe", "spectrum", "a.csv", "--as", "emision"]);
+        let expected = "invalid value 'emision' for '--as <KIND>'; [possible values: emission, reflectance, transmittance]; \
+            tip: a similar value exists: 'emission'";
+        assert_eq!(kinds, expected);
+        let space = message(&["abbe", "spectrum", "a.csv", "--space", "rec202"]);
+        assert!(
+            space.starts_with("invalid value 'rec202' for '--space <NAME>'; tip: ") && space.len() < 200,
+            "{space}"
+        );
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
 }

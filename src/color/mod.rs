@@ -1,4 +1,4 @@
-//! The colour library: observers, illuminants, XYZ by an exact rule, RGB spaces, spectra from RGB.
+//! The colour library: observers, illuminants, XYZ by an exact rule, RGB spaces, adaptation, gamuts, spectra from RGB.
 //!
 //! It knows spectra and nothing of rendering. All of it is f64. Conventions:
 //!
@@ -14,6 +14,7 @@ pub mod astm_e308;
 pub mod chroma;
 pub mod daylight;
 pub mod difference;
+pub mod gamut;
 pub mod illuminant;
 pub mod integration;
 pub mod led;
@@ -24,7 +25,6 @@ mod observer;
 pub mod quality;
 mod rgb;
 mod root;
-mod smoothest;
 pub mod space;
 pub mod sums;
 mod table;

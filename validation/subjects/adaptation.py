@@ -36,12 +36,20 @@ def von_kries():
     for ours, theirs in REFERENCE.items():
         for a, b in PAIRS:
             arguments.append([ours, numbers(WHITES[a]), numbers(WHITES[b])])
-            expected.append(colour.adaptation.matrix_chromatic_adaptation_VonKries(WHITES[a], WHITES[b], transform=theirs))
-    return Comparison("adaptation, 12 von Kries transforms", "cone_adaptation_matrix", arguments, expected, 1e-12, frozen_cases=96)
+            expected.append(
+                colour.adaptation.matrix_chromatic_adaptation_VonKries(WHITES[a], WHITES[b], transform=theirs)
+            )
+    return Comparison(
+        "adaptation, 12 von Kries transforms", "cone_adaptation_matrix", arguments, expected, 1e-12, frozen_cases=96
+    )
 
 
 def cie1994():
-    cases = [(xyz, a, b, e, y, n) for (a, b), xyz in zip(PAIRS * 4, colors(193)) for e, y, n in (((1000.0, 1000.0), 0.2, 0.01), ((50.0, 5000.0), 0.5, 0.001))]
+    cases = [
+        (xyz, a, b, e, y, n)
+        for (a, b), xyz in zip(PAIRS * 4, colors(193))
+        for e, y, n in (((1000.0, 1000.0), 0.2, 0.01), ((50.0, 5000.0), 0.5, 0.001))
+    ]
     arguments = [[xyz, [numbers(WHITES_XY[a]), numbers(WHITES_XY[b])], list(e), y, n] for xyz, a, b, e, y, n in cases]
     # colour takes the noise in percent whatever the scale of the rest.
     expected = [
@@ -59,11 +67,21 @@ def cie1994():
 def cmccat2000():
     surrounds = colour.VIEWING_CONDITIONS_CMCCAT2000
     luminances = ((200.0, 200.0), (20.0, 2000.0), (2000.0, 1.0))
-    cases = [(xyz, a, b, l, dim) for (a, b), xyz in zip(PAIRS * 4, colors(193)) for l in luminances for dim in (False, True)]
+    cases = [
+        (xyz, a, b, l, dim) for (a, b), xyz in zip(PAIRS * 4, colors(193)) for l in luminances for dim in (False, True)
+    ]
     arguments = [[xyz, numbers(WHITES[a]), numbers(WHITES[b]), list(l), dim] for xyz, a, b, l, dim in cases]
     both = []
-    for function in (colour.adaptation.chromatic_adaptation_forward_CMCCAT2000, colour.adaptation.chromatic_adaptation_inverse_CMCCAT2000):
-        both.append([function(np.asarray(xyz), WHITES[a], WHITES[b], *l, surrounds["Dim" if dim else "Average"]) for xyz, a, b, l, dim in cases])
+    for function in (
+        colour.adaptation.chromatic_adaptation_forward_CMCCAT2000,
+        colour.adaptation.chromatic_adaptation_inverse_CMCCAT2000,
+    ):
+        both.append(
+            [
+                function(np.asarray(xyz), WHITES[a], WHITES[b], *l, surrounds["Dim" if dim else "Average"])
+                for xyz, a, b, l, dim in cases
+            ]
+        )
     return [
         Comparison("adaptation, CMCCAT2000", "cmccat2000_forward", arguments, both[0], 1e-12),
         Comparison("adaptation, CMCCAT2000 inverse", "cmccat2000_inverse", arguments, both[1], 1e-12),
@@ -73,9 +91,25 @@ def cmccat2000():
 def zhai2018():
     arguments, expected = [], []
     for (a, b), xyz in zip(PAIRS * 4, colors(193)):
-        for transform, degrees, baseline in (("CAT16", (1.0, 1.0), "E"), ("CAT02", (0.7, 0.9), "E"), ("CAT16", (0.2, 0.0), "D65")):
-            arguments.append([xyz, [numbers(WHITES[a]), numbers(WHITES[b])], list(degrees), numbers(WHITES[baseline]), transform.lower()])
-            expected.append(colour.adaptation.chromatic_adaptation_Zhai2018(np.asarray(xyz), WHITES[a], WHITES[b], *degrees, WHITES[baseline], transform))
+        for transform, degrees, baseline in (
+            ("CAT16", (1.0, 1.0), "E"),
+            ("CAT02", (0.7, 0.9), "E"),
+            ("CAT16", (0.2, 0.0), "D65"),
+        ):
+            arguments.append(
+                [
+                    xyz,
+                    [numbers(WHITES[a]), numbers(WHITES[b])],
+                    list(degrees),
+                    numbers(WHITES[baseline]),
+                    transform.lower(),
+                ]
+            )
+            expected.append(
+                colour.adaptation.chromatic_adaptation_Zhai2018(
+                    np.asarray(xyz), WHITES[a], WHITES[b], *degrees, WHITES[baseline], transform
+                )
+            )
     return Comparison("adaptation, Zhai and Luo 2018", "zhai2018", arguments, expected, 1e-12)
 
 
@@ -89,7 +123,9 @@ def fairchild1991():
         white, reference = WHITES[a], WHITES[b]
         arguments, expected = lists[True]
         arguments.append([xyz, [numbers(white), numbers(reference)], [200.0, 200.0], True])
-        expected.append(colour.adaptation.chromatic_adaptation_Fairchild1990(np.asarray(xyz), white, reference, 200.0, True))
+        expected.append(
+            colour.adaptation.chromatic_adaptation_Fairchild1990(np.asarray(xyz), white, reference, 200.0, True)
+        )
         arguments, expected = lists[False]
         for luminances in ((200.0, 200.0), (5.0, 2000.0)):
             arguments.append([xyz, [numbers(white), numbers(reference)], list(luminances), False])
@@ -126,9 +162,18 @@ def fairchild2020():
 def li2025():
     arguments, expected = [], []
     for (a, b), xyz in zip(PAIRS * 4, colors(193)):
-        for luminance, surround, discounts in ((100.0, 1.0, False), (0.1, 0.8, False), (5000.0, 0.9, False), (100.0, 1.0, True)):
+        for luminance, surround, discounts in (
+            (100.0, 1.0, False),
+            (0.1, 0.8, False),
+            (5000.0, 0.9, False),
+            (100.0, 1.0, True),
+        ):
             arguments.append([xyz, numbers(WHITES[a]), numbers(WHITES[b]), luminance, None if discounts else surround])
-            expected.append(colour.adaptation.chromatic_adaptation_Li2025(np.asarray(xyz), WHITES[a], WHITES[b], luminance, surround, discounts))
+            expected.append(
+                colour.adaptation.chromatic_adaptation_Li2025(
+                    np.asarray(xyz), WHITES[a], WHITES[b], luminance, surround, discounts
+                )
+            )
     return Comparison("adaptation, Li 2025", "li2025", arguments, expected, 1e-12)
 
 

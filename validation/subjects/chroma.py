@@ -40,7 +40,7 @@ def check_dominant(evaluate):
         error = np.abs(values[clear, 0] - wavelength[clear]).max()
         # The nearest chromaticity is not always that of the nearest wavelength: the locus is not run through evenly.
         rows.append(row(f"dominant wavelength, {name}, nm", clear.sum(), error, 0.52))
-        # colour-science intersects with a line made 1e4 long, which costs it digits; see the cases by construction.
+        # colour-science ends the observer at 780 nm, which moves the line of purples by 1e-7.
         rows.append(row(f"excitation purity, {name}", len(xy), np.abs(values[:, 1] - excitation).max(), 1e-6))
         rows.append(row(f"colorimetric purity, {name}", len(xy), np.abs(values[:, 2] - colorimetric).max(), 1e-6))
     return rows

@@ -79,8 +79,17 @@ PARTS = {
 }
 OTHER_NAMES = {"a98-rgb": "Adobe RGB (1998)", "romm-rgb": "ROMM RGB", "ntsc-1953": "NTSC (1953)"}
 PUBLISHED = [
-    "srgb", "adobe-rgb", "prophoto-rgb", "aces2065-1", "arri-wide-gamut-3", "s-gamut3", "s-gamut3-cine", "v-gamut",
-    "red-wide-gamut-rgb", "d-gamut", "filmlight-e-gamut-2",
+    "srgb",
+    "adobe-rgb",
+    "prophoto-rgb",
+    "aces2065-1",
+    "arri-wide-gamut-3",
+    "s-gamut3",
+    "s-gamut3-cine",
+    "v-gamut",
+    "red-wide-gamut-rgb",
+    "d-gamut",
+    "filmlight-e-gamut-2",
 ]
 CONVERSIONS = ["Bradford", "CAT02", "CAT16", "XYZ Scaling"]
 RANDOM = np.random.default_rng(709)
@@ -104,12 +113,23 @@ def comparisons():
     published = [name + "-published" for name in PUBLISHED]
     stored = [space(SPACES[name]) for name in PUBLISHED]
     return [
-        Comparison("RGB primaries and whites", "rgb_primaries_and_white", names, [np.vstack([s.primaries, s.whitepoint]) for s in theirs], 0.0, frozen_cases=len(names)),
+        Comparison(
+            "RGB primaries and whites",
+            "rgb_primaries_and_white",
+            names,
+            [np.vstack([s.primaries, s.whitepoint]) for s in theirs],
+            0.0,
+            frozen_cases=len(names),
+        ),
         Comparison("XYZ from RGB, derived", "xyz_from_rgb_matrix", names, matrices, 1e-13),
         Comparison("RGB from XYZ, derived", "rgb_from_xyz_matrix", names, [np.linalg.inv(m) for m in matrices], 1e-13),
-        Comparison("XYZ from RGB, published", "xyz_from_rgb_matrix", published, [s.matrix_RGB_to_XYZ for s in stored], 0.0),
+        Comparison(
+            "XYZ from RGB, published", "xyz_from_rgb_matrix", published, [s.matrix_RGB_to_XYZ for s in stored], 0.0
+        ),
         # Two makers print one direction: ours and numpy's inverse differ by rounding.
-        Comparison("RGB from XYZ, published", "rgb_from_xyz_matrix", published, [s.matrix_XYZ_to_RGB for s in stored], 1e-15),
+        Comparison(
+            "RGB from XYZ, published", "rgb_from_xyz_matrix", published, [s.matrix_XYZ_to_RGB for s in stored], 1e-15
+        ),
         *conversions(),
         *colors(),
     ]
@@ -124,7 +144,16 @@ def conversions():
         name = adaptation.lower().replace(" ", "-") if adaptation else None
         arguments.append([str(source), str(target), name])
         expected.append(colour.matrix_RGB_to_RGB(derived(SPACES[source]), derived(SPACES[target]), adaptation))
-    return [Comparison("linear RGB from linear RGB, with and without adaptation, relative", "rgb_from_rgb_matrix", arguments, expected, 1e-12, True)]
+    return [
+        Comparison(
+            "linear RGB from linear RGB, with and without adaptation, relative",
+            "rgb_from_rgb_matrix",
+            arguments,
+            expected,
+            1e-12,
+            True,
+        )
+    ]
 
 
 def colors():
@@ -134,11 +163,15 @@ def colors():
         for rgb in [np.ones(3), np.full(3, 0.18), *RANDOM.uniform(0.02, 1.0, (20, 3))]:
             xyz = colour.RGB_to_XYZ(rgb, reference, chromatic_adaptation_transform=None)
             encode[0].append([ours, [float(v) for v in xyz]])
-            encode[1].append(colour.XYZ_to_RGB(xyz, reference, chromatic_adaptation_transform=None, apply_cctf_encoding=True))
+            encode[1].append(
+                colour.XYZ_to_RGB(xyz, reference, chromatic_adaptation_transform=None, apply_cctf_encoding=True)
+            )
             # Codes that the curve has: those of these colours.
             code = encode[1][-1]
             decode[0].append([ours, [float(v) for v in code]])
-            decode[1].append(colour.RGB_to_XYZ(code, reference, chromatic_adaptation_transform=None, apply_cctf_decoding=True))
+            decode[1].append(
+                colour.RGB_to_XYZ(code, reference, chromatic_adaptation_transform=None, apply_cctf_decoding=True)
+            )
             luminance[0].append([ours, [float(v) for v in rgb]])
             luminance[1].append(float(colour.RGB_luminance(rgb, reference.primaries, reference.whitepoint)))
     return [

@@ -67,7 +67,13 @@ def video_curves():
         video("bt709", m.oetf_BT709, m.oetf_inverse_BT709, 1.099, 0.018),
         video("bt2020", m.oetf_BT2020, m.oetf_inverse_BT2020, 1.099, 0.018),
         twelve_bit(),
-        video("bt2020-exact", lambda x: m.oetf_BT2020(x, **exact), lambda v: m.oetf_inverse_BT2020(v, **exact), alpha, beta),
+        video(
+            "bt2020-exact",
+            lambda x: m.oetf_BT2020(x, **exact),
+            lambda v: m.oetf_inverse_BT2020(v, **exact),
+            alpha,
+            beta,
+        ),
         Curve("smpte-240m", m.oetf_SMPTE240M, m.eotf_SMPTE240M, [0.0228], [0.0913]),
         # The inverse of the ideal display is defined from 0 on; colour mirrors it, we have one code for all below.
         Curve("bt1886", m.eotf_inverse_BT1886, m.eotf_BT1886, linear=LINEAR[LINEAR >= 0.0]),
@@ -85,7 +91,9 @@ def twelve_bit():
 
 def gamma_curves():
     mirrored = lambda exponent: lambda x: m.gamma_function(x, exponent, "Mirror")
-    named = [(f"gamma-{g}", float(g)) for g in ("1.8", "2.0", "2.2", "2.4", "2.6", "2.8", "2.35")] + [("adobe-rgb", 563 / 256)]
+    named = [(f"gamma-{g}", float(g)) for g in ("1.8", "2.0", "2.2", "2.4", "2.6", "2.8", "2.35")] + [
+        ("adobe-rgb", 563 / 256)
+    ]
     curves = [Curve(name, mirrored(1.0 / g), mirrored(g)) for name, g in named]
     return curves + [Curve("linear", m.linear_function, m.linear_function)]
 
@@ -106,7 +114,14 @@ def still_curves():
         Curve("romm", m.cctf_encoding_ROMMRGB, m.cctf_decoding_ROMMRGB, [2.0**-9], [2.0**-5]),
         # colour has one code for black and everything below in RIMM and ERIMM; we go on with the straight piece.
         Curve("rimm", m.cctf_encoding_RIMMRGB, rimm_decode, [0.018], [0.081 / v_clip], linear=positive),
-        Curve("erimm", m.log_encoding_ERIMMRGB, m.log_decoding_ERIMMRGB, [e_cut], [1.0 / np.log(316200.0)], linear=positive),
+        Curve(
+            "erimm",
+            m.log_encoding_ERIMMRGB,
+            m.log_decoding_ERIMMRGB,
+            [e_cut],
+            [1.0 / np.log(316200.0)],
+            linear=positive,
+        ),
         Curve("dcdm", m.eotf_inverse_DCDM, m.eotf_DCDM),
         Curve(
             "cie-lightness",
@@ -131,7 +146,14 @@ def aces_curves():
     positive = LINEAR[LINEAR >= 0.0]
     proxy = lambda bits: (lambda x: m.log_encoding_ACESproxy(x, bits), lambda v: m.log_decoding_ACESproxy(v, bits))
     return [
-        Curve("acescc", m.log_encoding_ACEScc, m.log_decoding_ACEScc, [0.0, 2.0**-15], [(9.72 - 15) / 17.52], round_trip=False),
+        Curve(
+            "acescc",
+            m.log_encoding_ACEScc,
+            m.log_decoding_ACEScc,
+            [0.0, 2.0**-15],
+            [(9.72 - 15) / 17.52],
+            round_trip=False,
+        ),
         Curve("acescc", m.log_encoding_ACEScc, m.log_decoding_ACEScc, [2.0**-15], linear=positive),
         Curve("acescct", m.log_encoding_ACEScct, m.log_decoding_ACEScct, [2.0**-7], [0.155251141552511]),
         Curve("acesproxy-10", *proxy(10), [2.0**-9.72], round_trip=False),
@@ -180,7 +202,13 @@ def camera_curves():
         # One code for everything below -0.0564.
         Curve("apple-log", *apple_log, [0.01, -0.05641088], round_trip=False),
         Curve("apple-log", *apple_log, linear=LINEAR[LINEAR >= -0.0564]),
-        Curve("davinci-intermediate", m.oetf_DaVinciIntermediate, m.oetf_inverse_DaVinciIntermediate, [0.00262409], [0.02740668]),
+        Curve(
+            "davinci-intermediate",
+            m.oetf_DaVinciIntermediate,
+            m.oetf_inverse_DaVinciIntermediate,
+            [0.00262409],
+            [0.02740668],
+        ),
         Curve("blackmagic-film-5", m.oetf_BlackmagicFilmGeneration5, m.oetf_inverse_BlackmagicFilmGeneration5, [0.005]),
         Curve("t-log", m.log_encoding_FilmLightTLog, m.log_decoding_FilmLightTLog, [0.0], [0.075]),
     ]
@@ -220,18 +248,26 @@ def by_size(subject, function, cases, tolerance=1e-12):
         if chosen:
             arguments = [[name, float(x)] for name, x, _ in chosen]
             suffix = " above 1, relative" if relative else ""
-            result.append(Comparison(subject + suffix, function, arguments, [float(y) for *_, y in chosen], tolerance, relative, 48))
+            result.append(
+                Comparison(
+                    subject + suffix, function, arguments, [float(y) for *_, y in chosen], tolerance, relative, 48
+                )
+            )
     return result
 
 
 def displays():
-    signals = [[float(v) for v in rgb] for rgb in [[0.0] * 3, [1.0] * 3, [0.5, 0.5, 0.5], *RANDOM.uniform(0.0, 1.0, (300, 3))]]
+    signals = [
+        [float(v) for v in rgb] for rgb in [[0.0] * 3, [1.0] * 3, [0.5, 0.5, 0.5], *RANDOM.uniform(0.0, 1.0, (300, 3))]
+    ]
     settings = [(0.0, 1000.0), (0.005, 1000.0), (0.1, 400.0), (0.0001, 4000.0)]
     hlg = [[*setting, signal] for setting in settings for signal in signals]
     shown = [m.eotf_BT2100_HLG(np.asarray(s), b, w) for b, w, s in hlg]
     back = [[b, w, [float(v) for v in f]] for (b, w, _), f in zip(hlg, shown)]
     signal_of = [m.eotf_inverse_BT2100_HLG(np.asarray(f), b, w) for b, w, f in back]
-    video = [[b, w, float(v)] for b, w in ((0.0, 100.0), (0.05, 100.0), (0.01, 203.0)) for v in np.linspace(0.0, 1.0, 101)]
+    video = [
+        [b, w, float(v)] for b, w in ((0.0, 100.0), (0.05, 100.0), (0.01, 203.0)) for v in np.linspace(0.0, 1.0, 101)
+    ]
     luminance = [m.eotf_BT1886(v, b, w) for b, w, v in video]
     inverse = [[b, w, float(l)] for (b, w, _), l in zip(video, luminance)]
     scene = [float(x) for x in LINEAR[(LINEAR >= 0.0) & (LINEAR <= 1.0)]]
@@ -242,9 +278,21 @@ def displays():
         Comparison("HLG displays, cd/m2, relative", "hlg_display", hlg, shown, 1e-12, True),
         Comparison("HLG displays, inverse", "hlg_display_inverse", back, signal_of, 1e-12),
         Comparison("BT.1886 displays, cd/m2", "bt1886_display", video, luminance, 1e-11),
-        Comparison("BT.1886 displays, inverse", "bt1886_display_inverse", inverse, [m.eotf_inverse_BT1886(l, b, w) for b, w, l in inverse], 1e-12),
+        Comparison(
+            "BT.1886 displays, inverse",
+            "bt1886_display_inverse",
+            inverse,
+            [m.eotf_inverse_BT1886(l, b, w) for b, w, l in inverse],
+            1e-12,
+        ),
         Comparison("PQ scene to display, cd/m2, relative", "pq_ootf", scene[1:], look[1:], 1e-12, True),
-        Comparison("PQ display to scene", "pq_ootf_inverse", known, [float(x) for x in m.ootf_inverse_BT2100_PQ(np.asarray(known))], 1e-12),
+        Comparison(
+            "PQ display to scene",
+            "pq_ootf_inverse",
+            known,
+            [float(x) for x in m.ootf_inverse_BT2100_PQ(np.asarray(known))],
+            1e-12,
+        ),
     ]
 
 

@@ -4,6 +4,7 @@ mod adaptation;
 mod appearance;
 mod chroma;
 mod difference;
+mod gamut;
 mod integration;
 mod metrics;
 mod optics;
@@ -25,11 +26,12 @@ pub type Answer = Result<Value, Box<dyn Error>>;
 /// A function of one JSON value.
 pub type Function = fn(&Value) -> Answer;
 
-const SUBJECTS: [&[(&str, Function)]; 14] = [
+const SUBJECTS: [&[(&str, Function)]; 15] = [
     adaptation::FUNCTIONS,
     appearance::FUNCTIONS,
     chroma::FUNCTIONS,
     difference::FUNCTIONS,
+    gamut::FUNCTIONS,
     integration::FUNCTIONS,
     metrics::FUNCTIONS,
     optics::FUNCTIONS,

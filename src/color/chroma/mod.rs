@@ -1,12 +1,14 @@
 //! What a chromaticity says about its light: wavelength, purity, whiteness, and how bright a surface of it can be.
 
 mod dominant;
+mod locus;
 mod optimal;
 mod purity;
 mod whiteness;
 mod yellowness;
 
-pub use dominant::{Dominant, complementary_wavelength, dominant_wavelength, is_within_locus};
+pub use dominant::{Dominant, complementary_wavelength, dominant_wavelength};
+pub use locus::is_within_locus;
 pub use optimal::{OptimalColor, OptimalColors};
 pub use purity::{colorimetric_purity, excitation_purity};
 pub use whiteness::{

@@ -3,7 +3,7 @@
 //! Illuminant and observer are linear between their samples, so the colour of a band with ends anywhere has a closed form.
 //! The limits are found to rounding instead of by triangulating a sampled surface.
 
-use super::is_within_locus;
+use super::locus::Locus;
 use crate::color::integration::{merged_knots, segment_2};
 use crate::color::{Observer, chromaticity, xyz_from_xy};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum};
@@ -32,7 +32,7 @@ pub struct OptimalColor {
 /// All optimal colours of an illuminant: the Rösch-MacAdam solid's surface.
 #[derive(Debug, Clone)]
 pub struct OptimalColors {
-    observer: Observer,
+    locus: Locus,
     lambda_nm: Vec<f64>,
     power: Vec<f64>,
     /// Colour-matching functions at the knots, scaled so that the perfect diffuser has Y = 1.
@@ -56,7 +56,8 @@ impl OptimalColors {
         let lambda_nm = merged_knots(&[&table, x, y, z], LAMBDA_MIN_NM, LAMBDA_MAX_NM);
         let [power, x, y, z] = [&table, x, y, z].map(|table| table.eval_ascending(&lambda_nm));
         let response: Vec<_> = (0..lambda_nm.len()).map(|i| DVec3::new(x[i], y[i], z[i])).collect();
-        let mut colors = Self { observer: observer.clone(), cumulative: vec![DVec3::ZERO], lambda_nm, power, response };
+        let mut colors =
+            Self { locus: Locus::new(observer), cumulative: vec![DVec3::ZERO], lambda_nm, power, response };
         for i in 1..colors.lambda_nm.len() {
             let below = colors.cumulative[i - 1] + colors.partial(i - 1, colors.lambda_nm[i]);
             colors.cumulative.push(below);
@@ -88,15 +89,16 @@ impl OptimalColors {
     /// MacAdam's limit \[MacAdam1935\]: the luminance that no surface of a chromaticity exceeds, whatever its reflectance; 1
     /// for the white. `None` for what is outside the locus or not finite.
     ///
-    /// Reflectances of 0 and 1 with two steps reach it where the locus is convex \[Schroedinger1920\]. Along the straight red
-    /// end of that of 1931 two steps may be a fifth too dark, for the locus is slightly concave there; this counts any number.
+    /// Reflectances of 0 and 1 with two steps reach it where the locus is convex \[Schroedinger1920\]. That of 1931 is not
+    /// quite, in the violet and along its straight red end; this counts any number of steps. Within rounding of the locus,
+    /// where the limit falls to 0 infinitely steeply, it is a bound that may be some per cent too high.
     pub fn limit(&self, xy: [f64; 2]) -> Option<f64> {
-        if !(xy[0].is_finite() && xy[1].is_finite() && is_within_locus(xy, &self.observer)) {
+        if !(xy[0].is_finite() && xy[1].is_finite() && self.locus.contains(xy.into())) {
             return None;
         }
-        // No component can exceed that of the perfect diffuser.
-        let (target, white) = (xyz_from_xy(xy), self.white());
-        let mut limit = (white / target).min_element();
+        // No luminance can exceed that of the perfect diffuser.
+        let target = xyz_from_xy(xy);
+        let mut limit = self.white().y;
         let Some(mut corners) = self.first_corners(target) else { return Some(limit) };
         // The target's ray passes a triangle of surface colours. Whatever surface is farthest beyond the triangle's plane
         // bounds the limit, and replaces a corner so that the ray passes the new triangle: the simplex method on the
@@ -106,11 +108,15 @@ impl OptimalColors {
             let shares = shares_from_xyz * target;
             let normal = shares_from_xyz.transpose() * DVec3::ONE;
             let farthest = self.farthest(normal);
-            // A bound for any normal, so that the rounding of an inverse of nearly coplanar corners does no harm.
-            let bound = normal.dot(farthest) / normal.dot(target);
-            if !(bound.is_finite() && bound > 0.0) {
+            // A bound for any normal, however badly rounded. Next to the locus it is nearly at right angles to the target, whose
+            // own rounding decides then.
+            let rounding = 16.0 * f64::EPSILON;
+            let reach = normal.dot(farthest) + rounding * normal.abs().dot(farthest.abs());
+            let share = normal.dot(target) - rounding * normal.abs().element_sum() * target.max_element();
+            if reach.is_nan() || share.is_nan() || share <= 0.0 {
                 break;
             }
+            let bound = reach / share;
             limit = limit.min(bound);
             if limit * shares.element_sum() <= 1.0 + ROUNDING / 4.0 {
                 break;
@@ -123,14 +129,16 @@ impl OptimalColors {
         Some(limit)
     }
 
-    /// The white and two neighbours on the outline of the diagram, so dark as not to be beyond any limit, between which a
+    /// The white and two neighbouring corners of the diagram's hull, so dark as not to be beyond any limit, between which a
     /// target's chromaticity is.
     fn first_corners(&self, target: DVec3) -> Option<DMat3> {
-        let last = self.response.len() - 1;
-        let spectral = |i: usize| self.response[i] / self.response[i].element_sum() * 1e-9;
-        let corners =
-            |i: usize| DMat3::from_cols(self.white(), spectral(i), spectral(if i == last { 0 } else { i + 1 }));
-        (0..=last).map(corners).find(|corners| {
+        let hull = &self.locus.hull;
+        let spectral = |i: usize| {
+            let xy = self.locus.xy[hull[i % hull.len()]];
+            xy.extend(1.0 - xy.element_sum()) * 1e-9
+        };
+        let corners = |i: usize| DMat3::from_cols(self.white(), spectral(i), spectral(i + 1));
+        (0..hull.len()).map(corners).find(|corners| {
             let shares = corners.inverse() * target;
             shares.is_finite() && shares.min_element() >= 0.0
         })
@@ -276,10 +284,22 @@ mod tests {
             // Bands at the ends of the spectrum are spectral: their chromaticity may be outside by rounding.
             let Some(limit) = D65.limit(chromaticity(color.xyz)) else { continue };
             assert!(color.xyz.y <= limit * (1.0 + ROUNDING), "{color:?} {limit}");
-            let both_in_the_curved_part = [color.from_nm, color.to_nm].iter().all(|l| (430.0..550.0).contains(l));
+            let both_in_the_curved_part = [color.from_nm, color.to_nm].iter().all(|l| (460.0..550.0).contains(l));
             if both_in_the_curved_part {
                 assert!((color.xyz.y / limit - 1.0).abs() < 1e-6, "{color:?} {limit}");
             }
+        }
+    }
+
+    #[test]
+    fn every_observer_has_limits() {
+        for name in Observer::names() {
+            let colors = OptimalColors::new(illuminant::d65(), Observer::by_name(name).unwrap()).unwrap();
+            let white = chromaticity(colors.white());
+            assert!((colors.limit(white).unwrap() - 1.0).abs() < 1e-12, "{name}");
+            let band = colors.band(470.0, 540.0);
+            let limit = colors.limit(chromaticity(band.xyz)).unwrap();
+            assert!((band.xyz.y / limit - 1.0).abs() < 1e-6, "{name}: {band:?} {limit}");
         }
     }
 

@@ -24,17 +24,17 @@ pub enum Field {
     Degrees10,
 }
 
-/// \[Berger1959\]: 0.333 Y + 125 Z/Z₀ − 125 X/X₀.
+/// Berger 1959 \[Wyszecki2000\]: 0.333 Y + 125 Z/Z₀ − 125 X/X₀.
 pub fn whiteness_berger1959(xyz: DVec3, white_xyz: DVec3) -> f64 {
     33.3 * xyz.y + 125.0 * (xyz.z / white_xyz.z) - 125.0 * (xyz.x / white_xyz.x)
 }
 
-/// \[Taube1960\]: 400 Z/Z₀ − 3 Y.
+/// Taube 1960 \[Wyszecki2000\]: 400 Z/Z₀ − 3 Y.
 pub fn whiteness_taube1960(xyz: DVec3, white_xyz: DVec3) -> f64 {
     400.0 * (xyz.z / white_xyz.z) - 300.0 * xyz.y
 }
 
-/// \[Stensby1968\] of CIE Lab: L − 3 b + 3 a.
+/// Stensby 1968 \[Wyszecki2000\] of CIE Lab: L − 3 b + 3 a.
 pub fn whiteness_stensby1968(lab: DVec3) -> f64 {
     lab.x - 3.0 * lab.z + 3.0 * lab.y
 }

@@ -2,14 +2,14 @@
 
 use glam::DVec3;
 
-/// Kₐ and K_b of a white: 175 √(X/0.98043), 70 √(Z/1.18115), which are 175 and 70 for illuminant C \[Hunter1966\].
+/// Kₐ and K_b of a white: 175 √(X/0.98043), 70 √(Z/1.18115), which are 175 and 70 for illuminant C \[HunterLab2008\].
 ///
 /// Instruments round them to 172.30 and 67.20 for D65, which changes a and b by up to 1e-3 of their values.
 pub fn hunter_coefficients(white_xyz: DVec3) -> [f64; 2] {
     [175.0 * (white_xyz.x / 0.980_43).sqrt(), 70.0 * (white_xyz.z / 1.181_15).sqrt()]
 }
 
-/// L, a, b of Hunter \[Hunter1966\] for a white and its coefficients ([`hunter_coefficients`]); white is (100, 0, 0).
+/// L, a, b of Hunter \[HunterLab2008\] for a white and its coefficients ([`hunter_coefficients`]); white is (100, 0, 0).
 ///
 /// Black is (0, 0, 0). NaN for negative luminance, infinite for a luminance of 0 with other components.
 pub fn hunter_lab_from_xyz(xyz: DVec3, white_xyz: DVec3, coefficients: [f64; 2]) -> DVec3 {
@@ -34,7 +34,7 @@ fn rdab_scale(y: f64) -> f64 {
     0.51 * ((21.0 + y) / (1.0 + y))
 }
 
-/// Rd, a, b of Hunter \[Hunter1966\]: luminance in per cent and opponent axes that need no root. White is (100, 0, 0).
+/// Rd, a, b of Hunter \[HunterLab2008\]: luminance in per cent and opponent axes that need no root. White is (100, 0, 0).
 pub fn hunter_rdab_from_xyz(xyz: DVec3, white_xyz: DVec3, coefficients: [f64; 2]) -> DVec3 {
     let DVec3 { x, y, z } = xyz / white_xyz;
     let scale = rdab_scale(xyz.y);

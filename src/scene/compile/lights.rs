@@ -113,7 +113,7 @@ pub fn compile(
 fn raw_lights(
     description: &SceneDescription,
     geometry: &Geometry,
-    spectra: &Spectra,
+    spectra: &mut Spectra,
     normalization: &Normalization,
 ) -> Result<Vec<Raw>> {
     let mut raw = Vec::new();
@@ -148,7 +148,7 @@ fn raw_lights(
     Ok(raw)
 }
 
-fn shapeless_light(light: &LightDescription, spectra: &Spectra, normalization: &Normalization) -> Result<Raw> {
+fn shapeless_light(light: &LightDescription, spectra: &mut Spectra, normalization: &Normalization) -> Result<Raw> {
     use description::LightKind as Kind;
     let unit = |v: [f64; 3]| DVec3::from(v).normalize().as_vec3();
     let point = |p: [f64; 3]| normalization.point(DVec3::from(p)).as_vec3();

@@ -90,6 +90,7 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
     let bvh = Bvh::build(&geometry.positions, &geometry.triangles, &geometry.analytic_bounds());
     let solids = geometry.solids();
     let lights = lights::compile(description, &mut geometry, &solids, &mut spectra, &normalization, &mut warnings)?;
+    warnings.extend(spectra.take_warnings());
     let features = SceneFeatures {
         dispersion: materials.media.iter().any(|m| m.dispersive),
         interiors: !materials.media.is_empty(),

@@ -9,6 +9,7 @@ use crate::scene::SpectrumId;
 use crate::scene::description::{SceneDescription, SpectrumDescription, SpectrumKind};
 use crate::spectrum::{PiecewiseLinear, Spectrum, SpectrumTable};
 use crate::{Error, ErrorKind, Result};
+use std::cell::RefCell;
 use std::path::Path;
 
 /// What a spectrum stands for; decides what an RGB colour means there and which values are legal.
@@ -26,15 +27,22 @@ pub enum Role {
 pub struct Spectra<'a> {
     description: &'a SceneDescription,
     tables: Vec<SpectrumTable>,
+    /// Resolving does not change the tables, but it may notice something.
+    warnings: RefCell<Vec<String>>,
 }
 
 impl<'a> Spectra<'a> {
     pub fn new(description: &'a SceneDescription) -> Self {
-        Self { description, tables: Vec::new() }
+        Self { description, tables: Vec::new(), warnings: RefCell::default() }
     }
 
     pub fn into_tables(self) -> Vec<SpectrumTable> {
         self.tables
+    }
+
+    /// What deserves a look about the spectra resolved so far.
+    pub fn take_warnings(&self) -> Vec<String> {
+        self.warnings.take()
     }
 
     /// Adds `factor` times a spectrum.
@@ -96,7 +104,7 @@ impl<'a> Spectra<'a> {
             SpectrumKind::Rgb { rgb, space } => {
                 let space = RgbSpace::by_name(space).map_err(|e| e.at(at("space")))?;
                 let upsampled = match role {
-                    Role::Reflectance => upsample::reflectance(*rgb, space),
+                    Role::Reflectance => self.reflectance_of_color(*rgb, space, &at("rgb")),
                     Role::Emission => upsample::emission(*rgb, space),
                     Role::Coefficient => Err(Error::new(
                         ErrorKind::WrongType,
@@ -119,9 +127,58 @@ impl<'a> Spectra<'a> {
             }
         }
     }
+
+    /// The natural reflectance of a colour, or of the nearest that can be one, with a warning.
+    fn reflectance_of_color(&self, rgb: [f64; 3], space: &RgbSpace, at: &str) -> Result<Spectrum> {
+        let projected = upsample::projected(rgb, space)?;
+        if projected.is_changed(rgb) {
+            let [r, g, b] = projected.rgb;
+            let warning = format!(
+                "{}: {at}: nothing that reflects at most all light has the colour {rgb:?} of {} under D65; rendered as \
+                 [{r:.4}, {g:.4}, {b:.4}], of the same luminance and {:.0} % of the saturation",
+                self.description.file.display(),
+                space.name,
+                100.0 * projected.saturation
+            );
+            let mut warnings = self.warnings.borrow_mut();
+            if !warnings.contains(&warning) {
+                warnings.push(warning);
+            }
+        }
+        Ok(projected.spectrum)
+    }
 }
 
 /// An error in a file that the scene names: told from where the scene names it.
 pub fn in_referenced_file(error: Error, path: &Path, at: String) -> Error {
     Error::new(error.kind, error.in_file(path).to_string()).at(at)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scene::{compile, description};
+
+    fn compiled(color: &str) -> crate::Result<crate::scene::Compiled> {
+        let text = format!(
+            r#"{{ "camera": {{ "type": "perspective", "from": [0, 0, 4], "to": [0, 0, 0] }},
+                  "film": {{ "width": 4, "height": 4 }},
+                  "materials": {{ "paint": {{ "type": "diffuse", "reflectance": {color} }} }},
+                  "objects": [ {{ "shape": {{ "type": "sphere", "center": [0, 0, 0], "radius": 1 }}, "material": "paint" }},
+                               {{ "shape": {{ "type": "sphere", "center": [2, 0, 0], "radius": 1 }}, "material": "paint" }} ],
+                  "environment": {{ "radiance": {{ "illuminant": "D65" }} }} }}"#
+        );
+        compile(&description::parse_str(&text, "test.json".as_ref())?.description)
+    }
+
+    #[test]
+    fn colors_without_a_reflectance_are_projected_with_a_warning() {
+        let scene = compiled(r#"{ "rgb": [0, 1, 0], "space": "rec2020" }"#).unwrap();
+        assert_eq!(scene.warnings.len(), 1, "{:?}", scene.warnings);
+        let warning = &scene.warnings[0];
+        assert!(warning.starts_with("test.json: materials.paint.reflectance.rgb: nothing that reflects"), "{warning}");
+        let possible = compiled(r#"{ "rgb": [0.1, 0.5, 0.2], "space": "rec2020" }"#).unwrap();
+        assert!(possible.warnings.is_empty(), "{:?}", possible.warnings);
+        let error = compiled(r#"{ "rgb": [0, 1.5, 0] }"#).unwrap_err();
+        assert_eq!(error.place, "materials.paint.reflectance.rgb[1]", "{error}");
+    }
 }

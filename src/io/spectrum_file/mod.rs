@@ -1,4 +1,11 @@
-//! Spectra in files: CSV, `.spd` pairs and IES TM-27 `.spdx`.
+//! Spectra in files: CSV, `.spd` pairs and IES TM-27 `.spdx`; one spectrum or many.
+
+mod diagnostics;
+mod pairs;
+mod rows;
+mod spdx;
+
+pub use diagnostics::{Finding, VISIBLE_NM, findings};
 
 use crate::spectrum::{PiecewiseLinear, check_knot};
 use crate::{Error, ErrorKind, Result};
@@ -16,7 +23,7 @@ const SHORTEST_LAST_NM: f64 = 100.0;
 /// How a file is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Format {
-    /// One sample a line, two columns.
+    /// One wavelength a line, two columns or more.
     Rows,
     /// Numbers between white space, wavelength and value in turn.
     Pairs,
@@ -24,21 +31,91 @@ enum Format {
     Spdx,
 }
 
-/// Reads a spectrum: wavelengths in nm, ascending, with one value each.
+/// What the values of a spectrum are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Light that is sent out, in whatever unit.
+    Emission,
+    /// The share of the light that a surface sends back.
+    Reflectance,
+    /// The share of the light that a filter lets through.
+    Transmittance,
+}
+
+impl Quantity {
+    /// What a column's name or the `SpectralQuantity` of TM-27 says, if it says anything.
+    fn from_word(word: &str) -> Option<Self> {
+        match word.trim().to_lowercase().as_str() {
+            "reflectance" | "reflectivity" | "reflection" => Some(Self::Reflectance),
+            "transmittance" | "transmissivity" | "transmission" => Some(Self::Transmittance),
+            "emission" | "radiance" | "irradiance" | "exitance" | "flux" | "intensity" | "power" => {
+                Some(Self::Emission)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// One spectrum of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedSpectrum {
+    /// The column's name; "column 2" and so on where columns have none; empty for a lone spectrum whose column has none, or
+    /// one that says what the values are.
+    pub name: String,
+    /// Wavelengths in nm, ascending, with one value each.
+    pub table: PiecewiseLinear,
+}
+
+/// What a file holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpectrumFile {
+    /// At least one, in the file's order.
+    pub spectra: Vec<NamedSpectrum>,
+    /// What the values are, if the file says so: by the names of its columns, or the `SpectralQuantity` of TM-27.
+    pub quantity: Option<Quantity>,
+}
+
+/// Reads a file with one spectrum: wavelengths in nm, ascending, with one value each.
 ///
-/// * `.csv`, `.txt`, `.tsv`, `.dat`: two columns with a comma, semicolon, tab or blanks between; comments from `#`; an
-///   optional first line of column names.
+/// The formats are those of [`read_all`].
+///
+/// # Errors
+/// Those of [`read_all`]; more than one spectrum.
+pub fn read(path: impl AsRef<Path>) -> Result<PiecewiseLinear> {
+    let path = path.as_ref();
+    let read = || single(parse(&read_text(path)?, format_of(path)?)?);
+    read().map_err(|error| error.in_file(path))
+}
+
+/// Reads all spectra of a file.
+///
+/// * `.csv`, `.txt`, `.tsv`, `.dat`: wavelengths in the first column, a spectrum in each further one, with a comma,
+///   semicolon, tab or blanks between; cells may stand in double quotes, and among several spectra a cell may be empty (no
+///   sample there); comments from `#`; an optional first line of column names.
 /// * `.spd`: pairs of numbers with white space between; comments from `#`.
-/// * `.spdx`, `.xml`: IES TM-27 \[TM27\], the `SpectralData` elements.
+/// * `.spdx`, `.xml`: IES TM-27 \[TM27\], the `SpectralData` elements of each `SpectralDistribution`.
 ///
 /// # Errors
 /// A file that does not exist, is not a file, is larger than [`MAX_BYTES`] or not UTF-8; anything that is not a number;
 /// wavelengths that do not ascend, are not positive, or look like µm or m; no samples or more than [`MAX_KNOTS`].
 /// Errors name the file and the line.
-pub fn read(path: impl AsRef<Path>) -> Result<PiecewiseLinear> {
+pub fn read_all(path: impl AsRef<Path>) -> Result<SpectrumFile> {
     let path = path.as_ref();
     let read = || parse(&read_text(path)?, format_of(path)?);
     read().map_err(|error| error.in_file(path))
+}
+
+/// Reads all spectra of a stream: XML if its first character is `<`, else rows as in a `.csv`.
+///
+/// # Errors
+/// As [`read_all`], with `name` for the file.
+pub fn read_all_from(reader: impl Read, name: impl AsRef<Path>) -> Result<SpectrumFile> {
+    let read = || {
+        let text = read_limited(reader)?;
+        let is_xml = text.trim_start_matches('\u{feff}').trim_start().starts_with('<');
+        parse(&text, if is_xml { Format::Spdx } else { Format::Rows })
+    };
+    read().map_err(|error| error.in_file(name))
 }
 
 fn format_of(path: &Path) -> Result<Format> {
@@ -55,16 +132,21 @@ fn format_of(path: &Path) -> Result<Format> {
 }
 
 fn read_text(path: &Path) -> Result<String> {
-    let unreadable = |e: std::io::Error| {
-        let kind = if e.kind() == std::io::ErrorKind::NotFound { ErrorKind::FileNotFound } else { ErrorKind::Io };
-        Error::new(kind, format!("cannot be read: {e}"))
-    };
     // Asked before opening: opening a pipe would wait for its writer.
     if !path.metadata().map_err(unreadable)?.is_file() {
         return Err(Error::new(ErrorKind::FileNotFound, "is not a file; expected a file with a spectrum"));
     }
+    read_limited(File::open(path).map_err(unreadable)?)
+}
+
+fn unreadable(error: std::io::Error) -> Error {
+    let kind = if error.kind() == std::io::ErrorKind::NotFound { ErrorKind::FileNotFound } else { ErrorKind::Io };
+    Error::new(kind, format!("cannot be read: {error}"))
+}
+
+fn read_limited(reader: impl Read) -> Result<String> {
     let mut bytes = Vec::new();
-    File::open(path).and_then(|f| f.take(MAX_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    reader.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() as u64 > MAX_BYTES {
         let message = format!("more than {} MiB; expected a spectrum of at most that", MAX_BYTES >> 20);
         return Err(Error::new(ErrorKind::LimitExceeded, message));
@@ -80,12 +162,22 @@ fn decode(bytes: Vec<u8>) -> Result<String> {
     })
 }
 
-fn parse(text: &str, format: Format) -> Result<PiecewiseLinear> {
+fn parse(text: &str, format: Format) -> Result<SpectrumFile> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     match format {
-        Format::Rows => parse_rows(text),
-        Format::Pairs => parse_pairs(text),
-        Format::Spdx => parse_spdx(text),
+        Format::Rows => rows::parse(text),
+        Format::Pairs => pairs::parse(text),
+        Format::Spdx => spdx::parse(text),
+    }
+}
+
+/// The spectrum of a file that must have no more.
+fn single(file: SpectrumFile) -> Result<PiecewiseLinear> {
+    let count = file.spectra.len();
+    let mut spectra = file.spectra.into_iter();
+    match (spectra.next(), spectra.next()) {
+        (Some(only), None) => Ok(only.table),
+        _ => Err(Error::new(ErrorKind::FileFormat, format!("{count} spectra; expected one (two columns)"))),
     }
 }
 
@@ -141,80 +233,6 @@ fn number(text: &str) -> Result<f64> {
     })
 }
 
-/// The fields of a row. A semicolon or tab separates before a comma, so that a decimal comma is not taken for one.
-fn fields(line: &str) -> Vec<&str> {
-    match [';', '\t', ','].into_iter().find(|&separator| line.contains(separator)) {
-        Some(separator) => line.split(separator).map(str::trim).collect(),
-        None => line.split_whitespace().collect(),
-    }
-}
-
-fn parse_rows(text: &str) -> Result<PiecewiseLinear> {
-    let mut samples = Samples::default();
-    for (index, (line, content)) in content_lines(text).enumerate() {
-        let fields = fields(content);
-        if index == 0 && fields.iter().all(|field| field.parse::<f64>().is_err()) {
-            continue; // Column names.
-        }
-        parse_row(&fields).and_then(|(lambda, value)| samples.push(lambda, value)).map_err(at_line(line))?;
-    }
-    samples.finish()
-}
-
-fn parse_row(fields: &[&str]) -> Result<(f64, f64)> {
-    match fields {
-        [lambda, value] => Ok((number(lambda)?, number(value)?)),
-        _ => {
-            let message = format!("{} columns; expected two: wavelength in nm and value", fields.len());
-            Err(Error::new(ErrorKind::FileFormat, message))
-        }
-    }
-}
-
-fn parse_pairs(text: &str) -> Result<PiecewiseLinear> {
-    let mut samples = Samples::default();
-    let mut pending = None;
-    let words =
-        content_lines(text).flat_map(|(line, content)| content.split_whitespace().map(move |word| (line, word)));
-    for (line, word) in words {
-        let value = number(word).map_err(at_line(line))?;
-        pending = match pending {
-            None => Some((line, value)),
-            Some((_, lambda)) => {
-                samples.push(lambda, value).map_err(at_line(line))?;
-                None
-            }
-        };
-    }
-    match pending {
-        Some((line, lambda)) => {
-            let message = format!("wavelength {lambda} without a value; expected pairs of wavelength and value");
-            Err(at_line(line)(Error::new(ErrorKind::FileFormat, message)))
-        }
-        None => samples.finish(),
-    }
-}
-
-fn parse_spdx(text: &str) -> Result<PiecewiseLinear> {
-    let document = roxmltree::Document::parse(text)
-        .map_err(|e| at_line(e.pos().row as usize)(Error::new(ErrorKind::Syntax, format!("not XML: {e}"))))?;
-    let mut samples = Samples::default();
-    for node in document.descendants().filter(|node| node.tag_name().name() == "SpectralData") {
-        let sample = || {
-            let Some(lambda) = node.attribute("wavelength") else {
-                let message = "SpectralData without a wavelength; expected the attribute \"wavelength\" in nm";
-                return Err(Error::new(ErrorKind::Missing, message));
-            };
-            Ok((number(lambda.trim())?, number(node.text().unwrap_or_default().trim())?))
-        };
-        // The line is looked up only when something is wrong: finding it reads the text from its start.
-        sample()
-            .and_then(|(lambda, value)| samples.push(lambda, value))
-            .map_err(|error| at_line(document.text_pos_at(node.range().start).row as usize)(error))?;
-    }
-    samples.finish()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -227,7 +245,7 @@ mod tests {
         <SpectralData wavelength=\" 403.1 \"> 3.7e-2 </SpectralData>\n</SpectralDistribution></IESTM2714>\n";
 
     fn knots(text: &str, format: Format) -> Vec<(f64, f64)> {
-        parse(text, format).unwrap().knots().collect()
+        single(parse(text, format).unwrap()).unwrap().knots().collect()
     }
 
     fn message(text: &str, format: Format) -> String {
@@ -260,8 +278,17 @@ mod tests {
             ("400,1\r\n410,inf", "line 2: inf at 410 nm; expected finite numbers"),
             ("400,1\n410,one", "line 2: \"one\"; expected a number with a decimal point"),
             ("400;1\n410;0,5", "line 2: \"0,5\"; expected a number with a decimal point"),
-            ("400,1,2", "line 1: 3 columns; expected two: wavelength in nm and value"),
-            ("400", "line 1: 1 columns; expected two: wavelength in nm and value"),
+            ("400", "line 1: 1 column; expected at least two: wavelength in nm and value"),
+            ("400,1,2\n410,1", "line 2: 2 columns; expected 3 as in the lines before"),
+            ("nm,a\n410,1,2", "line 2: 3 columns; expected 2 as in the lines before"),
+            ("400,1,2\n410,1,x", "line 2, column \"column 3\": \"x\"; expected a number with a decimal point"),
+            ("nm,a,b\n400,1,2\n410,nan,1", "line 3, column \"a\": NaN at 410 nm; expected finite numbers"),
+            ("nm,a,b\n400,1,\n410,2,", "column \"b\": no samples; expected pairs of wavelength in nm and value"),
+            ("400,1,2\n390,,", "line 2: wavelength 390 nm after 400 nm; expected ascending wavelengths"),
+            (
+                "patch,400,410,420\nred,0.1,0.2,0.3",
+                "line 2: wavelengths along the line of names; expected them down the first column (transpose the table)",
+            ),
             ("-400,1", "line 1: wavelength -400 nm; expected a positive one"),
             ("0.4,1\n0.7,2", "wavelengths up to 0.7 look like µm; expected nm"),
             ("4e-7,1\n7e-7,2", "wavelengths up to 7e-7 look like m; expected nm"),
@@ -281,6 +308,46 @@ mod tests {
         assert!(message(&SPDX.replace("wavelength=", "w="), Format::Spdx).contains("expected the attribute"));
         assert!(message("<a>\n<b></a>", Format::Spdx).starts_with("line 2: not XML"));
         assert!(message("<a/>", Format::Spdx).starts_with("no samples"));
+    }
+
+    #[test]
+    fn many_columns_have_names_and_may_have_gaps() {
+        let file = parse("nm;dark skin;\"a;\"\"b\"\"\";\n400;1;;3\n410;2;5;4\n", Format::Rows).unwrap();
+        assert_eq!(
+            file.spectra.iter().map(|s| s.name.as_str()).collect::<Vec<_>>(),
+            ["dark skin", "a;\"b\"", "column 4"]
+        );
+        assert_eq!(file.spectra[1].table.knots().collect::<Vec<_>>(), [(410.0, 5.0)]);
+        assert_eq!(file.spectra[2].table.knots().collect::<Vec<_>>(), [(400.0, 3.0), (410.0, 4.0)]);
+        let numbered = parse("wavelength_nm 1 2\n400 0.5 0.25", Format::Rows).unwrap();
+        assert_eq!(numbered.spectra[1].name, "2");
+        assert_eq!(parse("400 0.5 0.25", Format::Rows).unwrap().spectra[1].name, "column 3");
+        assert_eq!(parse("400 0.5", Format::Rows).unwrap().spectra[0].name, "");
+        let error = single(file).unwrap_err();
+        assert_eq!(error.to_string(), "3 spectra; expected one (two columns)");
+    }
+
+    #[test]
+    fn names_and_headers_say_what_the_values_are() {
+        let quantity = |text: &str, format| parse(text, format).unwrap().quantity;
+        assert_eq!(quantity("nm,Reflectance\n400,1", Format::Rows), Some(Quantity::Reflectance));
+        assert_eq!(quantity("nm,transmittance,transmittance\n400,1,2", Format::Rows), Some(Quantity::Transmittance));
+        assert_eq!(quantity("nm,reflectance,transmittance\n400,1,2", Format::Rows), None);
+        assert_eq!(quantity("nm,value\n400,1", Format::Rows), None);
+        assert_eq!(quantity(SPDX, Format::Spdx), None);
+        assert_eq!(quantity(&SPDX.replace("relative", "Radiance"), Format::Spdx), Some(Quantity::Emission));
+        assert_eq!(parse(SPDX, Format::Spdx).unwrap().spectra[0].name, "lamp");
+    }
+
+    #[test]
+    fn streams_are_rows_or_xml() {
+        let first = |text: &str| read_all_from(text.as_bytes(), "<stdin>").map(|f| f.spectra[0].table.knots().count());
+        assert_eq!(first("400 1\n410 2"), Ok(2));
+        assert_eq!(first(&format!("\u{feff}{SPDX}")), Ok(2));
+        assert_eq!(
+            first("400 1\n410").unwrap_err().to_string(),
+            "<stdin>: line 2: 1 column; expected 2 as in the lines before"
+        );
     }
 
     #[test]
@@ -333,8 +400,9 @@ mod tests {
             text in "([0-9.e,; \t\r\n#-]|nan|inf|µ|nm|<SpectralData wavelength=\"|\">|</SpectralData>|<a>|</a>|&){0,60}",
         ) {
             for format in [Format::Rows, Format::Pairs, Format::Spdx] {
-                if let Ok(table) = parse(&text, format) {
-                    prop_assert!(table.lambdas_nm().windows(2).all(|l| l[0] < l[1]));
+                for spectrum in parse(&text, format).into_iter().flat_map(|file| file.spectra) {
+                    prop_assert!(spectrum.table.lambdas_nm().windows(2).all(|l| l[0] < l[1]));
+                    let _ = findings(&spectrum.table, Quantity::Reflectance);
                 }
             }
         }

@@ -2,11 +2,13 @@
 //!
 //! A spectrum is `link(z)` at knots 1 nm apart. Of all z with ∑ wⱼ link(zⱼ) = target (three equations, the colour) we
 //! take the one with the least ∑ (zⱼ₊₁ − zⱼ)². With the logistic link this is the "least hyperbolic tangent slope
-//! squared" of \[Burns2019\]; with the exponential one it is the positive, scale-free curve for emissions.
+//! squared" of \[Burns2019\]; with the exponential one it is the positive, scale-free curve for emissions. Around a given
+//! curve it is z minus that curve which is the smoothest: the least change, in this sense, that gives the colour.
 //!
 //! Gauss–Newton steps (linear in the number of knots, since the smoothest curve under linear constraints is a double
 //! running sum) come near the solution; Newton steps on the whole system (tridiagonal) finish it to rounding.
 
+use super::linear::{solve_dense, solve_tridiagonal};
 use crate::math;
 use glam::DVec3;
 
@@ -39,16 +41,26 @@ impl Link {
             Self::Exponential => [math::exp(z); 3],
             Self::Logistic => {
                 let e = math::exp(-z.abs());
-                let small = e / (1.0 + e);
-                let value = if z < 0.0 { small } else { 1.0 / (1.0 + e) };
-                let slope = small / (1.0 + e);
+                let large = 1.0 / (1.0 + e);
+                let small = e * large;
+                let value = if z < 0.0 { small } else { large };
+                let slope = small * large;
                 [value, slope, slope * (1.0 - 2.0 * value)]
             }
         }
     }
 
+    /// The values of a curve; those of the logistic link never round to 0 or 1.
+    pub(super) fn values(self, z: &[f64]) -> Vec<f64> {
+        let bounds = match self {
+            Self::Logistic => (f64::MIN_POSITIVE, 1.0 - 0.5 * f64::EPSILON),
+            Self::Exponential => (0.0, f64::INFINITY),
+        };
+        z.iter().map(|&z| self.eval(z)[0].clamp(bounds.0, bounds.1)).collect()
+    }
+
     /// The z of a value inside the link's range.
-    fn inverse(self, value: f64) -> f64 {
+    pub(super) fn inverse(self, value: f64) -> f64 {
         match self {
             Self::Exponential => math::ln(value),
             Self::Logistic => math::ln(value / (1.0 - value)),
@@ -68,16 +80,25 @@ impl Link {
 ///
 /// `None` if there is no such spectrum (or none is found): the colour lies outside of what the link can reach.
 pub(super) fn solve(weights: &[DVec3], target: DVec3, link: Link) -> Option<Vec<f64>> {
+    let z = solve_curve(weights, target, link, None)?;
+    Some(link.values(&z))
+}
+
+/// The z whose difference from `around` (or from 0) is the smoothest, with link(z) of the target's colour.
+pub(super) fn solve_curve(weights: &[DVec3], target: DVec3, link: Link, around: Option<&[f64]>) -> Option<Vec<f64>> {
     let scale = target.abs().max_element();
     if !(scale > 0.0 && scale.is_finite()) {
         return None;
     }
-    let mean = target.element_sum() / 3.0;
     // Everything is relative to the target's size, so that dark colours are solved as well as bright ones.
     let weights: Vec<DVec3> = weights.iter().map(|&w| w / scale).collect();
-    let problem = Problem { weights: &weights, target: target / scale, link };
-    let z = problem.solve(vec![link.inverse(link.start(mean)); weights.len()])?;
-    Some(z.into_iter().map(|z| link.eval(z)[0]).collect())
+    let start = match around {
+        Some(_) => 0.0,
+        None => link.inverse(link.start(target.element_sum() / 3.0)),
+    };
+    let problem = Problem { weights: &weights, target: target / scale, link, around };
+    let y = problem.solve(vec![start; weights.len()])?;
+    Some(problem.curve(&y).collect())
 }
 
 /// Weights and target divided by the target's largest component.
@@ -85,6 +106,7 @@ struct Problem<'a> {
     weights: &'a [DVec3],
     target: DVec3,
     link: Link,
+    around: Option<&'a [f64]>,
 }
 
 /// The constraints near a curve.
@@ -97,67 +119,61 @@ struct Linearization {
     curvatures: Vec<DVec3>,
 }
 
-/// A curve and the multipliers of its three constraints.
+/// A difference from the curve around which to be smooth, with the multipliers of the three constraints.
 struct Iterate {
-    z: Vec<f64>,
+    y: Vec<f64>,
     multipliers: DVec3,
+    lin: Linearization,
 }
 
 impl Problem<'_> {
-    fn solve(&self, z: Vec<f64>) -> Option<Vec<f64>> {
-        let mut at = Iterate { z, multipliers: DVec3::ZERO };
-        let mut error = self.color_error(&at.z);
+    fn solve(&self, y: Vec<f64>) -> Option<Vec<f64>> {
+        let mut at = self.iterate(y, DVec3::ZERO);
         for step in 0..MAX_STEPS {
-            let lin = self.linearize(&at.z);
-            if step > 0 && error < NEWTON_REGION {
-                let norm = optimality(&at, &lin);
+            if step > 0 && at.color_error() < NEWTON_REGION {
+                let norm = at.optimality();
                 if norm < SOLVED {
                     break;
                 }
-                if let Some(next) = self.newton_step(&at, &lin, norm) {
-                    error = self.color_error(&next.z);
+                if let Some(next) = self.newton_step(&at, norm) {
                     at = next;
                     continue;
                 }
             }
-            match self.gauss_newton_step(&at, &lin, error) {
-                Some((next, next_error)) => (at, error) = (next, next_error),
+            match self.gauss_newton_step(&at) {
+                Some(next) => at = next,
                 None => break,
             }
         }
-        (error <= COLOR_TOLERANCE).then_some(at.z)
+        (at.color_error() <= COLOR_TOLERANCE).then_some(at.y)
     }
 
-    fn color(&self, z: &[f64]) -> DVec3 {
-        self.weights.iter().zip(z).map(|(&w, &z)| w * self.link.eval(z)[0]).sum()
+    /// z at the knots.
+    fn curve(&self, y: &[f64]) -> impl Iterator<Item = f64> {
+        y.iter().enumerate().map(|(j, y)| self.around.map_or(*y, |around| around[j] + y))
     }
 
-    fn color_error(&self, z: &[f64]) -> f64 {
-        (self.target - self.color(z)).abs().max_element()
-    }
-
-    fn linearize(&self, z: &[f64]) -> Linearization {
+    fn iterate(&self, y: Vec<f64>, multipliers: DVec3) -> Iterate {
         let mut color = DVec3::ZERO;
-        let (mut slopes, mut curvatures) = (Vec::with_capacity(z.len()), Vec::with_capacity(z.len()));
-        for (&weight, &z) in self.weights.iter().zip(z) {
+        let (mut slopes, mut curvatures) = (Vec::with_capacity(y.len()), Vec::with_capacity(y.len()));
+        for (&weight, z) in self.weights.iter().zip(self.curve(&y)) {
             let [value, slope, curvature] = self.link.eval(z);
             color += weight * value;
             slopes.push(weight * slope);
             curvatures.push(weight * curvature);
         }
-        Linearization { residual: self.target - color, slopes, curvatures }
+        Iterate { y, multipliers, lin: Linearization { residual: self.target - color, slopes, curvatures } }
     }
 
     /// The smoothest curve under the linearised constraints, approached as far as it lowers the error.
-    fn gauss_newton_step(&self, at: &Iterate, lin: &Linearization, error: f64) -> Option<(Iterate, f64)> {
-        let (goal, multipliers) = smoothest_under_linear_constraints(&at.z, lin)?;
+    fn gauss_newton_step(&self, at: &Iterate) -> Option<Iterate> {
+        let (goal, multipliers) = smoothest_under_linear_constraints(&at.y, &at.lin)?;
         let mut fraction = 1.0;
         for _ in 0..MAX_HALVINGS {
-            let z: Vec<f64> = at.z.iter().zip(&goal).map(|(z, goal)| z + fraction * (goal - z)).collect();
-            let next_error = self.color_error(&z);
-            if next_error < error * (1.0 - 1e-4 * fraction) {
-                let multipliers = at.multipliers.lerp(multipliers, fraction);
-                return Some((Iterate { z, multipliers }, next_error));
+            let y = at.y.iter().zip(&goal).map(|(y, goal)| y + fraction * (goal - y)).collect();
+            let next = self.iterate(y, at.multipliers.lerp(multipliers, fraction));
+            if next.color_error() < at.color_error() * (1.0 - 1e-4 * fraction) {
+                return Some(next);
             }
             fraction *= 0.5;
         }
@@ -165,15 +181,15 @@ impl Problem<'_> {
     }
 
     /// A full Newton step, if it halves the norm of the optimality conditions.
-    fn newton_step(&self, at: &Iterate, lin: &Linearization, norm: f64) -> Option<Iterate> {
-        let gradient = gradient(at, lin);
+    fn newton_step(&self, at: &Iterate, norm: f64) -> Option<Iterate> {
+        let lin = &at.lin;
         // H = (second differences) − ∑ multiplier · curvature; the right-hand sides are −gradient and the three slopes.
-        let last = at.z.len() - 1;
+        let last = at.y.len() - 1;
         let diagonal = lin.curvatures.iter().enumerate().map(|(j, c)| {
             let neighbours = if j == 0 || j == last { 1.0 } else { 2.0 };
             neighbours + REGULARIZATION - at.multipliers.dot(*c)
         });
-        let right = gradient.iter().zip(&lin.slopes).map(|(&g, s)| [-g, s.x, s.y, s.z]);
+        let right = at.gradient().zip(&lin.slopes).map(|(g, s)| [-g, s.x, s.y, s.z]);
         let solution = solve_tridiagonal(diagonal.collect(), right.collect())?;
         // Multipliers such that the step meets the linearised constraints.
         let mut system = [[0.0; 4]; 3];
@@ -189,34 +205,39 @@ impl Problem<'_> {
         }
         let change = DVec3::from(solve_dense(system)?);
         let step = |x: &[f64; 4]| x[0] + DVec3::new(x[1], x[2], x[3]).dot(change);
-        let z = at.z.iter().zip(&solution).map(|(z, x)| z + step(x)).collect();
-        let next = Iterate { z, multipliers: at.multipliers + change };
-        (optimality(&next, &self.linearize(&next.z)) < 0.5 * norm).then_some(next)
+        let y = at.y.iter().zip(&solution).map(|(y, x)| y + step(x)).collect();
+        let next = self.iterate(y, at.multipliers + change);
+        (next.optimality() < 0.5 * norm).then_some(next)
     }
 }
 
-/// Gradient of ½ ∑ (zⱼ₊₁ − zⱼ)² − multipliers · colour.
-fn gradient(at: &Iterate, lin: &Linearization) -> Vec<f64> {
-    let last = at.z.len() - 1;
-    let component = |j: usize| {
-        let left = if j > 0 { at.z[j] - at.z[j - 1] } else { 0.0 };
-        let right = if j < last { at.z[j + 1] - at.z[j] } else { 0.0 };
-        left - right - at.multipliers.dot(lin.slopes[j])
-    };
-    (0..=last).map(component).collect()
+impl Iterate {
+    fn color_error(&self) -> f64 {
+        self.lin.residual.abs().max_element()
+    }
+
+    /// Gradient of ½ ∑ (yⱼ₊₁ − yⱼ)² − multipliers · colour.
+    fn gradient(&self) -> impl Iterator<Item = f64> {
+        let last = self.y.len() - 1;
+        (0..=last).map(move |j| {
+            let left = if j > 0 { self.y[j] - self.y[j - 1] } else { 0.0 };
+            let right = if j < last { self.y[j + 1] - self.y[j] } else { 0.0 };
+            left - right - self.multipliers.dot(self.lin.slopes[j])
+        })
+    }
+
+    /// How far it is from the optimality conditions: norm of the gradient plus colour error.
+    fn optimality(&self) -> f64 {
+        self.gradient().map(|g| g * g).sum::<f64>().sqrt() + self.color_error()
+    }
 }
 
-/// How far an iterate is from the optimality conditions: norm of the gradient plus colour error.
-fn optimality(at: &Iterate, lin: &Linearization) -> f64 {
-    gradient(at, lin).iter().map(|g| g * g).sum::<f64>().sqrt() + lin.residual.abs().max_element()
-}
-
-/// The z of least ∑ (zⱼ₊₁ − zⱼ)² that meets the linearised constraints, and its multipliers.
+/// The y of least ∑ (yⱼ₊₁ − yⱼ)² that meets the linearised constraints, and its multipliers.
 ///
 /// Its second differences are a combination of the slopes, so it is a combination of their double running sums plus
 /// a constant: four unknowns, from three constraints and the condition that the slopes' combination sums to 0.
-fn smoothest_under_linear_constraints(z: &[f64], lin: &Linearization) -> Option<(Vec<f64>, DVec3)> {
-    let mut basis = Vec::with_capacity(z.len());
+fn smoothest_under_linear_constraints(y: &[f64], lin: &Linearization) -> Option<(Vec<f64>, DVec3)> {
+    let mut basis = Vec::with_capacity(y.len());
     let (mut height, mut slope_sum) = (DVec3::ZERO, DVec3::ZERO);
     for &slope in &lin.slopes {
         basis.push(height);
@@ -226,9 +247,9 @@ fn smoothest_under_linear_constraints(z: &[f64], lin: &Linearization) -> Option<
     let mean = basis.iter().copied().sum::<DVec3>() / basis.len() as f64;
     let mut right = lin.residual;
     let mut matrix = [DVec3::ZERO; 3];
-    for ((basis, &slope), &z) in basis.iter_mut().zip(&lin.slopes).zip(z) {
+    for ((basis, &slope), &y) in basis.iter_mut().zip(&lin.slopes).zip(y) {
         *basis -= mean;
-        right += slope * z;
+        right += slope * y;
         for (row, s) in matrix.iter_mut().zip(slope.to_array()) {
             *row += *basis * s;
         }
@@ -242,41 +263,6 @@ fn smoothest_under_linear_constraints(z: &[f64], lin: &Linearization) -> Option<
     ])?;
     let multipliers = DVec3::new(x[0], x[1], x[2]);
     Some((basis.iter().map(|b| b.dot(multipliers) + x[3]).collect(), multipliers))
-}
-
-/// Solves T x = r with T of the given diagonal and −1 beside it, for four right-hand sides; `None` if T is singular.
-fn solve_tridiagonal(mut diagonal: Vec<f64>, mut right: Vec<[f64; 4]>) -> Option<Vec<[f64; 4]>> {
-    for j in 1..diagonal.len() {
-        let factor = 1.0 / diagonal[j - 1];
-        diagonal[j] -= factor;
-        right[j] = std::array::from_fn(|k| right[j][k] + factor * right[j - 1][k]);
-    }
-    for j in (0..diagonal.len()).rev() {
-        let after = right.get(j + 1).copied().unwrap_or_default();
-        right[j] = std::array::from_fn(|k| (right[j][k] + after[k]) / diagonal[j]);
-    }
-    right.iter().flatten().all(|x| x.is_finite()).then_some(right)
-}
-
-/// Solves N equations, each a row of N coefficients and the right-hand side, with column pivoting.
-fn solve_dense<const N: usize, const M: usize>(mut rows: [[f64; M]; N]) -> Option<[f64; N]> {
-    for column in 0..N {
-        let pivot = (column..N).max_by(|&a, &b| rows[a][column].abs().total_cmp(&rows[b][column].abs()))?;
-        rows.swap(column, pivot);
-        let pivot_row = rows[column];
-        for row in &mut rows[column + 1..] {
-            let factor = row[column] / pivot_row[column];
-            for (entry, above) in row.iter_mut().zip(pivot_row) {
-                *entry -= factor * above;
-            }
-        }
-    }
-    let mut x = [0.0; N];
-    for i in (0..N).rev() {
-        let known: f64 = (i + 1..N).map(|k| rows[i][k] * x[k]).sum();
-        x[i] = (rows[i][N] - known) / rows[i][i];
-    }
-    x.iter().all(|x| x.is_finite()).then_some(x)
 }
 
 #[cfg(test)]
@@ -347,17 +333,5 @@ mod tests {
         }
         assert_eq!(Link::Logistic.eval(800.0), [1.0, 0.0, 0.0]);
         assert_eq!(Link::Logistic.eval(-800.0), [0.0, 0.0, 0.0]);
-    }
-
-    #[test]
-    fn small_systems() {
-        let x = solve_dense([[0.0, 2.0, 4.0], [3.0, 1.0, 5.0]]).unwrap();
-        assert_eq!(x, [1.0, 2.0]);
-        assert_eq!(solve_dense([[1.0, 2.0, 1.0], [2.0, 4.0, 1.0]]), None);
-        let x = solve_tridiagonal(vec![2.0, 2.0, 2.0], vec![[1.0; 4], [0.0; 4], [1.0; 4]]).unwrap();
-        for row in x {
-            assert_relative_eq!(row[0], 1.0, max_relative = 1e-15);
-        }
-        assert_eq!(solve_tridiagonal(vec![1.0, 1.0], vec![[1.0; 4]; 2]), None);
     }
 }
