@@ -55,14 +55,51 @@ pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
-/// Cube root, of negative numbers too.
+/// Natural logarithm of 1 + x, accurate near 0.
+/// ln(1 + x), accurate near 0.
+pub fn ln_1p(x: f64) -> f64 {
+    libm::log1p(x)
+}
+
+/// Cube root, with the sign of x.
+/// Logarithm to the base 2.
+pub fn log2(x: f64) -> f64 {
+    libm::log2(x)
+}
+
+/// Logarithm to the base 10.
+pub fn log10(x: f64) -> f64 {
+    libm::log10(x)
+}
+
+/// 2 to the power x.
+pub fn exp2(x: f64) -> f64 {
+    libm::exp2(x)
+}
+
+/// 10 to the power x.
+pub fn exp10(x: f64) -> f64 {
+    libm::exp10(x)
+}
+
+/// Cube root; that of a negative number is negative.
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
+}
+
+/// Length of the vector (x, y), without overflow or underflow on the way.
+pub fn hypot(x: f64, y: f64) -> f64 {
+    libm::hypot(x, y)
 }
 
 /// x to the power y.
 pub fn pow(x: f64, y: f64) -> f64 {
     libm::pow(x, y)
+}
+
+/// |x| to the power y with the sign of x: the power mirrored at 0, which has a value for every x.
+pub fn signed_pow(x: f64, y: f64) -> f64 {
+    pow(x.abs(), y).copysign(x)
 }
 
 /// Sine and cosine of an f32 angle in radians.

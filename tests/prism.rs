@@ -2,16 +2,15 @@
 
 #[path = "common/render.rs"]
 mod common;
+#[path = "common/trace.rs"]
+mod trace;
 
-use abbe::bsdf::{Dielectric, Indices, Lanes};
-use abbe::geometry::Ray;
 use abbe::math;
 use abbe::optics::ior::IndexOfRefraction;
-use abbe::scene::{Compiled, Material};
-use abbe::spectrum::SampledSpectrum;
 use common::{compile_json, render_json, with};
 use glam::DVec3;
 use serde_json::{Value, json};
+use trace::{Event, Tracer};
 
 const APEX: f64 = 60.0;
 /// C, d, F, g and h; nm.
@@ -53,27 +52,15 @@ fn scene(glass: &str, i: f64) -> Value {
     })
 }
 
-/// Follows the camera's middle ray through the scene, refracting at one wavelength; the direction in which it leaves.
-fn refracted(compiled: &Compiled, lambda: f64) -> DVec3 {
-    let scene = &compiled.scene;
-    let mut ray: Ray = scene.camera.ray([1.0, 1.0], [0.5, 0.5]);
-    let mut crossed = 0;
-    while let Some(surface) = scene.closest(&ray, f32::INFINITY) {
-        let Material::Dielectric { medium } = scene.objects[surface.object as usize].material else { panic!() };
-        let medium = &scene.media[medium.0 as usize];
-        let glass = Indices { eta: [medium.ior.eval(lambda); 8], dispersive: medium.dispersive };
-        let entering = surface.geometric.dot(ray.direction.as_dvec3()) < 0.0;
-        let (from, to, normal) =
-            if entering { (Indices::AIR, glass, surface.geometric) } else { (glass, Indices::AIR, -surface.geometric) };
-        let boundary = Dielectric { from, to };
-        let sample =
-            boundary.sample::<true>(ray.direction, normal, Lanes::Only(0), 0, SampledSpectrum::ONE.only(0), 0.999_999);
-        assert!(sample.refracted, "total reflection");
-        ray = surface.spawn(sample.direction);
-        crossed += 1;
-    }
-    assert_eq!(crossed, 2, "in by one face, out by another");
-    ray.direction.as_dvec3().normalize()
+/// Direction in which the camera's middle ray leaves the prism of a scene, refracted at one wavelength.
+fn refracted(scene: &Value, lambda: f64) -> DVec3 {
+    let [from, to] = ["from", "to"].map(|key| {
+        let point: [f64; 3] = serde_json::from_value(scene["camera"][key].clone()).unwrap();
+        DVec3::from(point)
+    });
+    let compiled = compile_json(scene);
+    let tracer = Tracer::new(&compiled, scene);
+    tracer.trace(from, (to - from).normalize(), lambda, &[Event::Refract; 2]).direction
 }
 
 fn angle(a: DVec3, b: DVec3) -> f64 {
@@ -85,12 +72,12 @@ fn deviation_of_every_line() {
     for (glass, angles) in [("SF11", [60.0, 62.0, 63.2, 68.0, 76.0f64]), ("N-BK7", [38.0, 45.0, 49.3, 57.0, 72.0])] {
         for degrees in angles {
             let i = degrees.to_radians();
-            let compiled = compile_json(&scene(glass, i));
+            let scene = scene(glass, i);
             let mut last = 0.0;
             for lambda in LINES {
                 let n = index(glass).eval(lambda);
                 let exact = deviation(n, i);
-                let out = refracted(&compiled, lambda);
+                let out = refracted(&scene, lambda);
                 let seen = angle(incident(i), out);
                 assert!((seen - exact).abs() < 1e-5, "{glass} {degrees}° {lambda} nm: {seen} rad, exact {exact}");
                 assert!(out.x < incident(i).x, "towards the base");
@@ -110,7 +97,7 @@ fn minimum_deviation() {
             let half = 0.5 * APEX.to_radians();
             let i = math::asin(n * math::sin(half));
             let least = 2.0 * i - 2.0 * half;
-            let seen = |i: f64| angle(incident(i), refracted(&compile_json(&scene(glass, i)), lambda));
+            let seen = |i: f64| angle(incident(i), refracted(&scene(glass, i), lambda));
             assert!((seen(i) - least).abs() < 1e-5, "{glass} {lambda}: {} {least}", seen(i));
             for off in [-0.02, 0.02] {
                 assert!(seen(i + off) > seen(i) + 1e-5, "{glass} {lambda}: not the least");
@@ -146,10 +133,7 @@ fn lines_on_a_screen() {
     let base = scene(glass, i);
     let start: DVec3 = serde_json::from_value::<[f64; 3]>(base["camera"]["from"].clone()).unwrap().into();
     // The screen faces the d line half a metre away.
-    let out = {
-        let compiled = compile_json(&base);
-        refracted(&compiled, 587.5618)
-    };
+    let out = refracted(&base, 587.5618);
     let center = out * 0.5;
     let right = out.cross(DVec3::Y);
     let corner = center - right * 0.2 - DVec3::Y * 0.2;

@@ -394,19 +394,17 @@ fn filters() {
 /// Boundaries: the share of reflections is Fresnel's, lane by lane.
 #[test]
 fn dielectric_choice() {
-    use abbe::bsdf::{Dielectric, Indices};
+    use abbe::bsdf::{Dielectric, Incidence, Indices};
     let glass = Indices { eta: std::array::from_fn(|k| 1.9 - 0.02 * k as f64), dispersive: true };
     let boundary = Dielectric { from: Indices::AIR, to: glass };
     for degrees in [0.0, 50.0, 85.0f64] {
         let (sin, cos) = (math::sin(degrees.to_radians()), math::cos(degrees.to_radians()));
-        let d = Vec3::new(sin as f32, 0.0, -cos as f32);
+        let incidence = Incidence::new(Vec3::new(sin as f32, 0.0, -cos as f32), DVec3::Z);
         for lane in 0..8 {
             let one = SampledSpectrum::ONE.only(lane);
             let reflected = (0..SAMPLES / 10)
                 .filter(|&i| {
-                    !boundary
-                        .sample::<true>(d, DVec3::Z, Lanes::Only(lane), lane, one, uniform(i, lane as u64))
-                        .refracted
+                    !boundary.sample::<true>(&incidence, Lanes::Only(lane), one, uniform(i, lane as u64)).refracted
                 })
                 .count() as u64;
             let f = common::fresnel(sin, 1.0, glass.eta[lane]);

@@ -68,13 +68,6 @@ def abbe_binary():
     return binary
 
 
-def color_values(request):
-    """What the crate's colour library answers; the example is brought up to date first."""
-    command = ["cargo", "run", "--profile", PROFILE, "--quiet", "--example", "color_values"]
-    done = subprocess.run(command, cwd=ROOT, input=json.dumps(request), stdout=subprocess.PIPE, text=True, check=True)
-    return json.loads(done.stdout)
-
-
 def evaluate_all(requests):
     """Values of the library's functions at lists of arguments; the example is brought up to date first."""
     command = ["cargo", "run", "--profile", PROFILE, "--quiet", "--example", "evaluate"]
@@ -113,14 +106,7 @@ def all_rows(only, frozen):
 
 
 def other_rows():
-    import rgb
-    import tables
-    import xyz
-
-    rows = tables.check()
-    values = color_values({**xyz.request(), **rgb.request()})
-    rows += xyz.check(values)
-    rows += rgb.check(values)
+    rows = []
     if (HERE / "glass_check.py").exists():
         import glass_check
 

@@ -23,7 +23,9 @@ impl Indices {
 pub enum Lanes {
     /// All share the ray.
     Shared,
-    /// They have parted: only this one goes on.
+    /// They have parted and each goes its own way with the same random numbers; this is one of those ways.
+    Bundled(usize),
+    /// They have parted and only this one goes on: it stands for all.
     Only(usize),
 }
 
@@ -36,18 +38,37 @@ pub struct Dielectric {
     pub to: Indices,
 }
 
-/// What became of a path at the boundary.
+/// How a path arrives at a boundary.
 #[derive(Debug, Clone, Copy)]
+pub struct Incidence {
+    /// Unit direction of travel.
+    direction: DVec3,
+    /// Unit normal on the side where the path comes from.
+    normal: DVec3,
+    cos_theta: f64,
+}
+
+impl Incidence {
+    /// Of a path that travels along the unit `direction` and meets a surface whose unit `normal` faces it.
+    pub fn new(direction: Vec3, normal: DVec3) -> Self {
+        let direction = direction.as_dvec3().normalize();
+        Self { direction, normal, cos_theta: (-direction.dot(normal)).clamp(0.0, 1.0) }
+    }
+
+    /// The direction of reflection, the same in every lane.
+    pub fn reflected(&self) -> Vec3 {
+        optics::reflect(self.direction, self.normal).as_vec3()
+    }
+}
+
+/// What becomes of a path at the boundary.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DielectricSample {
-    /// Direction of travel afterwards.
-    pub direction: Vec3,
-    /// Share of the flux that this path carries on, divided by the probability of the choice. Radiance changes by
+    /// Whether it crosses; see [`Dielectric::refracted`]. Otherwise it is [`Incidence::reflected`].
+    pub refracted: bool,
+    /// Share of the flux that each lane carries on, divided by the probability of the choice. Radiance changes by
     /// (η_from / η_to)² besides; as that telescopes along a path, it is applied where light is collected.
     pub weight: SampledSpectrum,
-    /// Whether the path crossed.
-    pub refracted: bool,
-    /// Whether the new direction depends on the wavelength: lanes that shared the ray have to part.
-    pub parts_lanes: bool,
 }
 
 impl Dielectric {
@@ -56,60 +77,48 @@ impl Dielectric {
         self.from.eta == self.to.eta
     }
 
-    /// Reflects or refracts a path that travels along the unit `direction` and meets the surface whose unit `normal`
-    /// faces it. The choice, by `u` in [0, 1), is shared by all lanes; `hero` gives the direction where lanes part.
+    /// Whether directions of refraction depend on the wavelength.
+    pub fn is_dispersive(&self) -> bool {
+        self.from.dispersive || self.to.dispersive
+    }
+
+    /// Chooses between reflection and refraction by `u` in [0, 1).
     ///
-    /// With shared lanes a reflection is drawn with q = Σ βₖFₖ / Σ βₖ (`throughput` β), which is the balance heuristic \[Wilkie2014\]
-    /// over the heroes that could have been, so that all lanes keep their own Fₖ / q. A dispersive refraction leaves the
-    /// hero alone, which then stands for all eight: the caller multiplies by [`LANES`] when it parts them.
+    /// Lanes that share the ray share the choice. A reflection is drawn with q = Σ βₖFₖ / Σ βₖ (`throughput` β), and each
+    /// lane keeps its own Fₖ / q or (1 − Fₖ) / (1 − q): no lane is lost, and lanes beyond their critical angle have weight
+    /// 0 on the other side. A lane on its own compares `u` with its own F, so that its weight is 1 whatever happens, and
+    /// lanes with the same `u` part only where their F differ.
     pub fn sample<const DISPERSION: bool>(
         &self,
-        direction: Vec3,
-        normal: DVec3,
+        incidence: &Incidence,
         lanes: Lanes,
-        hero: usize,
         throughput: SampledSpectrum,
         u: f32,
     ) -> DielectricSample {
-        let d = direction.as_dvec3().normalize();
-        let cos_theta_i = (-d.dot(normal)).clamp(0.0, 1.0);
-        let of_lane = |lane: usize| optics::refract(cos_theta_i, self.from.eta[lane], self.to.eta[lane]);
-        let dispersive = DISPERSION && (self.from.dispersive || self.to.dispersive);
-
-        // Reflectance of each lane, and the probability of choosing the reflection.
-        let refraction = of_lane(hero);
+        let f = |lane: usize| reflectance(optics::refract(incidence.cos_theta, self.from.eta[lane], self.to.eta[lane]));
         let (reflectance, q) = match lanes {
-            Lanes::Shared if dispersive => {
-                let f = SampledSpectrum::from_fn(|lane| reflectance(of_lane(lane)));
+            Lanes::Shared if DISPERSION && self.is_dispersive() => {
+                let reflectance = SampledSpectrum::from_fn(f);
                 let total = throughput.sum();
-                (f, if total > 0.0 { (throughput * f).sum() / total } else { f.mean() })
+                let q = if total > 0.0 { (throughput * reflectance).sum() / total } else { reflectance.mean() };
+                (reflectance, q)
             }
-            _ => {
-                let f = reflectance(refraction);
-                (SampledSpectrum::splat(f), f)
-            }
+            Lanes::Shared => (SampledSpectrum::splat(f(0)), f(0)),
+            Lanes::Bundled(lane) | Lanes::Only(lane) => (SampledSpectrum::splat(f(lane)), f(lane)),
         };
-
-        match refraction {
-            Some(refraction) if u >= q => DielectricSample {
-                direction: refraction
-                    .direction(d, normal, cos_theta_i, self.from.eta[hero], self.to.eta[hero])
-                    .as_vec3(),
-                weight: (SampledSpectrum::ONE - reflectance) * (1.0 / (1.0 - q)),
-                refracted: true,
-                parts_lanes: dispersive,
-            },
-            // Chosen to refract, but this hero is reflected totally: its path ends, the other heroes stand for the rest.
-            None if u >= q => {
-                DielectricSample { direction, weight: SampledSpectrum::ZERO, refracted: true, parts_lanes: dispersive }
-            }
-            _ => DielectricSample {
-                direction: optics::reflect(d, normal).as_vec3(),
-                weight: reflectance * (1.0 / q),
-                refracted: false,
-                parts_lanes: false,
-            },
+        if u < q {
+            DielectricSample { refracted: false, weight: reflectance * (1.0 / q) }
+        } else {
+            DielectricSample { refracted: true, weight: (SampledSpectrum::ONE - reflectance) * (1.0 / (1.0 - q)) }
         }
+    }
+
+    /// The direction in which a lane is refracted; `None` beyond its critical angle.
+    pub fn refracted(&self, incidence: &Incidence, lane: usize) -> Option<Vec3> {
+        let (from, to) = (self.from.eta[lane], self.to.eta[lane]);
+        let Incidence { direction, normal, cos_theta } = *incidence;
+        let refraction = optics::refract(cos_theta, from, to)?;
+        Some(refraction.direction(direction, normal, cos_theta, from, to).as_vec3())
     }
 }
 
@@ -126,8 +135,8 @@ mod tests {
         Indices { eta: std::array::from_fn(|k| 1.8 - 0.01 * k as f64), dispersive: true }
     }
 
-    /// Averaged over the choice and the hero, every lane gets its reflectance and its transmittance back, also where some
-    /// lanes are beyond their critical angle and others are not.
+    /// Averaged over the choice, every lane gets its reflectance and its transmittance back, whether lanes share it or not,
+    /// also where some lanes are beyond their critical angle and others are not.
     #[test]
     fn every_lane_keeps_its_energy() {
         let boundary = Dielectric { from: glass(), to: Indices::AIR };
@@ -135,27 +144,28 @@ mod tests {
         for degrees in [0.0, 20.0, 33.6, 33.9, 34.5, 60.0] {
             let angle = f64::to_radians(degrees);
             let direction = Vec3::new(math::sin(angle) as f32, 0.0, -math::cos(angle) as f32);
-            let (mut reflected, mut refracted) = ([0.0f64; LANES], [0.0f64; LANES]);
+            let incidence = Incidence::new(direction, DVec3::Z);
             let n = 2000;
-            for i in 0..n {
-                let u = (i as f32 + 0.5) / n as f32;
-                for hero in 0..LANES {
-                    let s = boundary.sample::<true>(direction, DVec3::Z, Lanes::Shared, hero, beta, u);
-                    let w = s.weight.lanes();
-                    if s.refracted {
-                        refracted[hero] += f64::from(w[hero]) / f64::from(n);
-                    } else {
-                        for lane in 0..LANES {
-                            reflected[lane] += f64::from(w[lane]) / f64::from(n) / LANES as f64;
+            for lane in 0..LANES {
+                for lanes in [Lanes::Shared, Lanes::Bundled(lane), Lanes::Only(lane)] {
+                    let (mut reflected, mut refracted) = (0.0, 0.0);
+                    for i in 0..n {
+                        let u = (i as f32 + 0.5) / n as f32;
+                        let s = boundary.sample::<true>(&incidence, lanes, beta, u);
+                        let w = f64::from(s.weight.lane(lane)) / f64::from(n);
+                        if !s.refracted {
+                            reflected += w;
+                        } else if boundary.refracted(&incidence, lane).is_some() {
+                            refracted += w;
+                        } else {
+                            assert_eq!(w, 0.0, "a lane beyond its critical angle is refracted");
                         }
                     }
+                    let f = optics::refract(incidence.cos_theta, boundary.from.eta[lane], 1.0);
+                    let f = f.map_or(1.0, |r| r.reflectance);
+                    assert!((reflected - f).abs() < 5e-3 * f.max(0.05), "{degrees} {lanes:?}: {reflected} {f}");
+                    assert!((refracted - (1.0 - f)).abs() < 5e-3 * (1.0 - f).max(0.1), "{degrees} {lanes:?}");
                 }
-            }
-            let c = -f64::from(direction.z) / direction.as_dvec3().length();
-            for lane in 0..LANES {
-                let f = optics::refract(c, boundary.from.eta[lane], 1.0).map_or(1.0, |r| r.reflectance);
-                assert!((reflected[lane] - f).abs() < 5e-3 * f.max(0.05), "{degrees} {lane}: {} {f}", reflected[lane]);
-                assert!((refracted[lane] - (1.0 - f)).abs() < 2e-2 * (1.0 - f).max(0.1), "{degrees} {lane}");
             }
         }
     }
@@ -165,13 +175,11 @@ mod tests {
     fn constant_indices_take_the_plain_path() {
         let boundary = Dielectric { from: Indices::AIR, to: Indices { eta: [1.5; LANES], dispersive: false } };
         for i in 0..100 {
-            let direction = Vec3::new(0.01 * i as f32, 0.1, -1.0).normalize();
+            let incidence = Incidence::new(Vec3::new(0.01 * i as f32, 0.1, -1.0).normalize(), DVec3::Z);
             let u = (i as f32 * 0.37).fract();
             let beta = SampledSpectrum::from_fn(|k| k as f32);
-            let a = boundary.sample::<true>(direction, DVec3::Z, Lanes::Shared, 3, beta, u);
-            let b = boundary.sample::<false>(direction, DVec3::Z, Lanes::Shared, 3, beta, u);
-            assert_eq!((a.direction, a.weight), (b.direction, b.weight));
-            assert!(!a.parts_lanes);
+            let a = boundary.sample::<true>(&incidence, Lanes::Shared, beta, u);
+            assert_eq!(a, boundary.sample::<false>(&incidence, Lanes::Shared, beta, u));
         }
     }
 }

@@ -9,7 +9,7 @@ mod diffuse;
 mod mirror;
 
 pub use conductor::Conductor;
-pub use dielectric::{Dielectric, Indices, Lanes};
+pub use dielectric::{Dielectric, Incidence, Indices, Lanes};
 pub use diffuse::Diffuse;
 pub use mirror::Mirror;
 

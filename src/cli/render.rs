@@ -363,13 +363,16 @@ fn report(args: &RenderArgs, outputs: &[PathBuf], film: &Film, statistics: &Stat
     if film.non_finite_samples > 0 {
         eprintln!("warning: {} samples were not finite and have been left out", film.non_finite_samples);
     }
+    let decisions = &statistics.decisions;
     if args.verbose {
+        eprintln!("{decisions}");
         let cpu = process::cpu_seconds().unwrap_or(f64::NAN);
-        let paths = (camera + statistics.light_paths) as f64;
+        let paths = (camera + statistics.light_paths + statistics.photon_paths) as f64;
         eprintln!(
-            "{camera} camera paths, {} light paths, {:.2} rays a path, {:.3} µs of CPU a path, {} rays left glass they had \
+            "{camera} camera paths, {} light paths, {} of them for merging, {:.2} rays a path, {:.3} µs of CPU a path, {} rays left glass they had \
              not entered; estimated relMSE {}",
-            statistics.light_paths,
+            statistics.light_paths + statistics.photon_paths,
+            statistics.photon_paths,
             statistics.counters.rays as f64 / paths,
             cpu / paths * 1e6,
             statistics.counters.medium_underflows,
@@ -385,6 +388,15 @@ fn report(args: &RenderArgs, outputs: &[PathBuf], film: &Film, statistics: &Stat
             "height": film.height(),
             "camera_paths": camera,
             "light_paths": statistics.light_paths,
+            "photon_paths": statistics.photon_paths,
+            "plan": {
+                "camera_ways": decisions.camera_ways,
+                "light_ways": decisions.light_ways,
+                "light_paths_per_camera_path": decisions.light_paths_per_camera_path,
+                "merge_passes_per_sample": decisions.merge_passes_per_sample,
+                "photon_paths_per_pass": decisions.photon_paths_per_pass,
+                "pilot_rays": decisions.pilot_rays,
+            },
             "rays": statistics.counters.rays,
             "medium_underflows": statistics.counters.medium_underflows,
             "estimated_relative_mse": error,

@@ -2,7 +2,7 @@
 
 use super::{Observer, normalized_to_unit_luminance, table};
 use crate::spectrum::{PiecewiseLinear, Spectrum};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Result, math};
 use std::sync::LazyLock;
 
 /// The tables of data/illuminants, one a family.
@@ -48,6 +48,15 @@ pub fn relative_power(name: &str) -> Result<PiecewiseLinear> {
     }
 }
 
+/// Relative spectral power of CIE standard illuminant A by its formula, 100 at 560 nm: a Planckian radiator of 2848 K with
+/// c₂ = 1.435·10⁻² m·K \[CIE15\], at a positive wavelength in nm.
+pub fn standard_a(lambda_nm: f64) -> f64 {
+    let exponential = |lambda_nm: f64| math::exp_m1(1.435e7 / (2848.0 * lambda_nm));
+    let ratio = 560.0 / lambda_nm;
+    let ratio_2 = ratio * ratio;
+    100.0 * ratio_2 * ratio_2 * ratio * exponential(560.0) / exponential(lambda_nm)
+}
+
 /// CIE D65 at Y = 1.
 pub fn d65() -> &'static Spectrum {
     &D65
@@ -90,6 +99,14 @@ mod tests {
             let xy = chromaticity(xyz_of_emission(&by_name(name).unwrap(), Observer::cie_1931_2deg()));
             let tolerance = if name.starts_with("FL") || name == "C" { 3e-4 } else { 5e-5 };
             assert!((xy[0] - x).abs() < tolerance && (xy[1] - y).abs() < tolerance, "{name}: {xy:?}");
+        }
+    }
+
+    #[test]
+    fn illuminant_a_follows_its_formula() {
+        let table = relative_power("A").unwrap();
+        for (lambda, value) in table.knots() {
+            assert!((standard_a(lambda) / value - 1.0).abs() < 5e-6, "{lambda}: {value}");
         }
     }
 

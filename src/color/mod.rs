@@ -9,14 +9,31 @@
 //! Tables come from data/, where each file names its source, edition and licence.
 
 pub mod adaptation;
+pub mod appearance;
+pub mod astm_e308;
+pub mod chroma;
+pub mod daylight;
+pub mod difference;
 pub mod illuminant;
 pub mod integration;
+pub mod led;
+pub mod lightness;
+pub mod luminous;
+pub mod measured;
 mod observer;
+pub mod quality;
 mod rgb;
+mod root;
+pub mod space;
+pub mod sums;
 mod table;
+pub mod temperature;
+pub mod thermal;
+pub mod transfer;
 pub mod upsample;
 mod xyz;
 
 pub use observer::Observer;
-pub use rgb::{RgbSpace, srgb_decode, srgb_encode};
+pub use rgb::{EncodedRgb, LinearRgb, RgbSpace};
+pub use transfer::{Transfer, srgb_decode, srgb_encode};
 pub use xyz::{chromaticity, normalized_to_unit_luminance, xyz_from_xy, xyz_of_emission, xyz_of_reflectance};

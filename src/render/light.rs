@@ -1,89 +1,124 @@
 //! Light paths, splatted where the camera sees them.
 
+use super::bounce;
+use super::guide::Guide;
 use super::path::camera_density;
-use super::walk::{Crossing, Walk};
-use super::{Techniques, bounce};
+use super::techniques::Techniques;
+use super::walk::{Crossing, Parting, Walk};
+use super::workspace::Workspace;
 use crate::bsdf::Bsdf;
 use crate::film::{Filter, Sensor, Splat};
 use crate::geometry::{Frame, Ray, offset_origin};
 use crate::sampling::{Draw, Sobol, balance_heuristic};
-use crate::scene::{Emission, Light, LightKind, Material, Scene, Surface};
-use crate::spectrum::{LANES, SampledSpectrum};
+use crate::scene::{Emission, GuidedPair, LightKind, Material, Scene, Surface};
+use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
 use glam::Vec3;
 
-/// What light paths are traced for, and onto what.
+/// How light paths are traced.
 #[derive(Debug)]
 pub struct LightTracer<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// The colour observer.
-    pub sensor: &'a Sensor,
-    /// The reconstruction filter.
-    pub filter: &'a Filter,
-    /// Who else finds the same paths.
-    pub techniques: &'a Techniques,
+    /// Where they start.
+    pub guide: &'a Guide,
+    /// Whether they are aimed at what can focus light and followed for what they own, see [`super::techniques`], or cover
+    /// everything.
+    pub caustics_only: bool,
+    /// What lanes do where they part.
+    pub parting: Parting,
     /// Largest number of scattering events.
     pub max_depth: u32,
 }
 
-/// One light path's view of the film.
-struct Target<'a> {
-    tracer: &'a LightTracer<'a>,
-    /// Density of light paths where camera paths could find the same; see [`Techniques::light_path_density`].
-    density: Option<f32>,
-    /// Power of the path in each lane, before any scattering.
-    power: SampledSpectrum,
-    weights: [SampledSpectrum; 3],
-    splats: &'a mut Vec<Splat>,
+/// How a light path started.
+#[derive(Debug)]
+pub struct Start {
+    /// Index of its light.
+    pub light: u32,
+    /// Where it left it.
+    pub emission: Emission,
+    /// The guided pair of random numbers, after the guide has moved it.
+    pub numbers: [f32; 2],
+    /// The light's spectrum over the probability of drawing this light.
+    pub spectrum: SampledSpectrum,
+    /// Power that it carries in each lane, before any scattering.
+    pub power: SampledSpectrum,
+    /// Its wavelengths.
+    pub wavelengths: Wavelengths,
+}
+
+/// A light path at a diffuse surface.
+#[derive(Debug, Clone, Copy)]
+pub struct Arrival<'a> {
+    /// Where it is.
+    pub surface: &'a Surface,
+    /// How light scatters there.
+    pub bsdf: &'a Bsdf,
+    /// The normals, turned to the path.
+    pub frame: &'a Frame,
+    /// Two random numbers that nothing else uses.
+    pub u: [f32; 2],
+}
+
+/// What becomes of light paths.
+pub trait Collector {
+    /// A path leaves its light.
+    fn leave<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start);
+    /// A path is at a diffuse surface, in a way that light paths own.
+    fn arrive<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start, arrival: Arrival);
 }
 
 impl LightTracer<'_> {
-    /// Traces path `index` of a sequence and appends what the film gets of it.
+    /// Traces path `index` of a sequence, at given wavelengths or at those that its light prefers.
     pub fn trace<const DISPERSION: bool, const INTERIORS: bool>(
         &self,
-        workspace: &mut super::workspace::Workspace,
-        sobol: Sobol,
-        index: u64,
-        splats: &mut Vec<Splat>,
+        workspace: &mut Workspace,
+        (sobol, index): (Sobol, u64),
+        wavelengths: Option<Wavelengths>,
+        collector: &mut impl Collector,
     ) {
         // Point, wavelengths and direction first: that is where the picture of a caustic comes from.
         let scene = self.scene;
         let u = sobol.group(index, 0);
-        let table = if self.caustics_only() { &scene.caustic_table } else { &scene.emission_table };
-        let Some(Draw { index: light_index, probability, .. }) = table.sample(u[5]) else { return };
+        let Some(Draw { index: light_index, probability, .. }) = self.guide.sample_light(u[5]) else { return };
         let light = &scene.lights[light_index];
-        let wavelengths = light.wavelengths.sample(u[2]);
-        let aim = if self.caustics_only() { scene.caustic_aim } else { None }.unwrap_or(scene.everything());
-        let Some(emission) = light.emit(scene, &aim, [u[0], u[1]], [u[3], u[4]]) else { return };
+        let wavelengths = wavelengths.unwrap_or_else(|| light.wavelengths.sample(u[2]));
+        let aim = if self.caustics_only { scene.caustic_aim } else { None }.unwrap_or(scene.everything());
+        let (mut point, mut direction) = ([u[0], u[1]], [u[3], u[4]]);
+        let pair = light.guided_pair();
+        let density = self.guide.warp(light_index, pair, &mut point, &mut direction);
+        let Some(mut emission) = light.emit(scene, &aim, point, direction) else { return };
+        emission.weight /= density;
         workspace.spectra.begin(wavelengths);
         let hero = (u[6] * LANES as f32) as usize;
 
         let origin = emission.start.origin(emission.direction);
         let inside = if INTERIORS && light.may_be_inside { scene.interiors_at(origin) } else { Vec::new() };
         workspace.interiors.reset(&inside);
-        let spectrum = workspace.spectra.spectrum(scene, light.spectrum);
-        let mut walk =
-            Walk::start(scene, workspace, Ray { origin, direction: emission.direction }, hero, (sobol, index));
-        let mut target = Target {
-            tracer: self,
-            density: self.techniques.light_path_density(scene, light_index as u32, &emission.exit()),
-            power: spectrum * (emission.weight / probability),
-            weights: self.sensor.weights(&wavelengths),
-            splats,
+        let spectrum = workspace.spectra.spectrum(scene, light.spectrum) * (1.0 / probability);
+        let start = Start {
+            light: light_index as u32,
+            numbers: if pair == Some(GuidedPair::Point) { point } else { direction },
+            spectrum,
+            power: spectrum * emission.weight,
+            wavelengths,
+            emission,
         };
-        if !self.caustics_only() {
-            target.splat_emitter::<INTERIORS>(&mut walk, light, &emission, spectrum * (1.0 / probability));
-        }
-        self.follow::<DISPERSION, INTERIORS>(&mut walk, &mut target);
+        let ray = Ray { origin, direction: emission.direction };
+        let mut walk = Walk::start(scene, workspace, ray, (hero, self.parting), (sobol, index));
+        collector.leave::<INTERIORS>(&mut walk, &start);
+        self.follow::<DISPERSION, INTERIORS>(&mut walk, &start, false, collector);
     }
 
-    fn caustics_only(&self) -> bool {
-        !matches!(self.techniques, Techniques::Light)
-    }
-
-    /// Follows a path from surface to surface.
-    fn follow<const DISPERSION: bool, const INTERIORS: bool>(&self, walk: &mut Walk, target: &mut Target) {
-        let mut focused = false;
+    /// Follows a path from surface to surface. `focused` is whether something specular came before the first diffuse one.
+    fn follow<const DISPERSION: bool, const INTERIORS: bool>(
+        &self,
+        walk: &mut Walk,
+        start: &Start,
+        mut focused: bool,
+        collector: &mut impl Collector,
+    ) {
+        let local = self.scene.lights[start.light as usize].is_local();
         let mut diffused = false;
         while walk.depth < self.max_depth {
             let Some(surface) = walk.advance::<INTERIORS>() else { break };
@@ -94,17 +129,30 @@ impl LightTracer<'_> {
                     Crossing::Passed => continue,
                     Crossing::Ended => break,
                     Crossing::Scattered => focused |= !diffused,
+                    Crossing::Parted(ways) => {
+                        for way in 0..ways {
+                            if walk.set_out(way) {
+                                self.follow::<DISPERSION, INTERIORS>(walk, start, true, collector);
+                            }
+                        }
+                        break;
+                    }
                 }
             } else {
                 let Some((bsdf, frame)) = walk.bsdf::<INTERIORS>(object, &surface) else { break };
                 if bsdf.is_specular() {
                     focused |= !diffused;
                 } else {
-                    diffused = true;
-                    if self.caustics_only() && !focused {
+                    if !self.caustics_only || focused || (local && diffused) {
+                        let arrival = Arrival { surface: &surface, bsdf: &bsdf, frame: &frame, u: [u[4], u[5]] };
+                        collector.arrive::<INTERIORS>(walk, start, arrival);
+                    } else if !local {
                         break;
                     }
-                    target.splat_surface::<INTERIORS>(walk, &surface, &bsdf, &frame, [u[4], u[5]]);
+                    diffused = true;
+                    if !walk.diffused() {
+                        break;
+                    }
                 }
                 walk.throughput *= adjoint(&frame, -walk.ray.direction);
                 if bounce(walk, &surface, &bsdf, &frame.without_shading(), [u[0], u[1]]).is_none() {
@@ -130,18 +178,82 @@ fn adjoint(frame: &Frame, wo: Vec3) -> f32 {
     if factor.is_finite() { factor } else { 0.0 }
 }
 
-impl Target<'_> {
-    /// What the camera sees of the light that a path brings to a diffuse surface.
-    fn splat_surface<const INTERIORS: bool>(
-        &mut self,
-        walk: &mut Walk,
-        surface: &Surface,
-        bsdf: &Bsdf,
-        frame: &Frame,
-        lens: [f32; 2],
-    ) {
+/// Collects what the camera sees of light paths.
+#[derive(Debug)]
+pub struct Splatter<'a> {
+    /// The colour observer.
+    pub sensor: &'a Sensor,
+    /// The reconstruction filter.
+    pub filter: &'a Filter,
+    /// Who else finds the same paths.
+    pub techniques: &'a Techniques,
+    /// What the film gets.
+    pub splats: Vec<Splat>,
+    /// Light and guided numbers of the last path that left one.
+    pub start: Option<(u32, [f32; 2])>,
+    /// Of the path under way: see [`Techniques::light_path_density`].
+    density: Option<f32>,
+    weights: [SampledSpectrum; 3],
+}
+
+impl<'a> Splatter<'a> {
+    /// With no splats yet.
+    pub fn new(sensor: &'a Sensor, filter: &'a Filter, techniques: &'a Techniques) -> Self {
+        let weights = [SampledSpectrum::ZERO; 3];
+        Self { sensor, filter, techniques, splats: Vec::new(), start: None, density: None, weights }
+    }
+
+    fn deposit(&mut self, scene: &Scene, film: [f32; 2], radiance: SampledSpectrum) {
+        let xyz = Sensor::xyz(&self.weights, radiance);
+        let [width, height] = scene.camera.size();
+        self.filter.splat(film, width, height, |x, y, weight| {
+            let pixel = y * width + x;
+            self.splats.push(Splat { pixel, xyz: xyz.map(|v| v * f64::from(weight)) });
+        });
+    }
+
+    /// A light that the camera sees directly: its own surface is where the path "ends".
+    fn splat_emitter<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start) {
         let scene = walk.scene;
-        let Some(seen) = scene.camera.connect(surface.point, lens, self.tracer.filter.radius()) else { return };
+        let LightKind::Area { area, two_sided, .. } = scene.lights[start.light as usize].kind else { return };
+        let from = start.emission.start;
+        let Some(seen) = scene.camera.connect(from.point, [0.5; 2], self.filter.radius()) else { return };
+        let to_camera = seen.lens - from.point;
+        let cos = from.normal.dot(to_camera.normalize_or_zero());
+        if cos <= 0.0 {
+            return;
+        }
+        // The start belongs to one side of the light: a two-sided one has twice the area to draw from.
+        let per_area = area * if two_sided { 2.0 } else { 1.0 };
+        let surface = Surface {
+            t: 0.0,
+            point: offset_origin(from.point, from.error, from.normal, from.normal),
+            error: Vec3::ZERO,
+            geometric: from.normal.as_dvec3(),
+            shading: from.normal,
+            object: u32::MAX,
+        };
+        if let Some(transmittance) = walk.visibility::<INTERIORS>(&surface, to_camera, Some(seen.lens)) {
+            self.deposit(scene, seen.film, start.spectrum * transmittance * (per_area * cos * seen.importance));
+        }
+    }
+}
+
+impl Collector for Splatter<'_> {
+    fn leave<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start) {
+        self.start = Some((start.light, start.numbers));
+        self.weights = self.sensor.weights(&start.wavelengths);
+        self.density = self.techniques.light_path_density(walk.scene, start.light, &start.emission.exit());
+        if matches!(self.techniques, Techniques::Light { .. }) {
+            self.splat_emitter::<INTERIORS>(walk, start);
+        }
+    }
+
+    /// What the camera sees of the light that a path brings to a diffuse surface.
+    fn arrive<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start, arrival: Arrival) {
+        let Arrival { surface, bsdf, frame, u } = arrival;
+        let scene = walk.scene;
+        let Some(seen) = scene.camera.connect(surface.point, u, self.filter.radius()) else { return };
         let wi = (seen.lens - surface.point).normalize_or_zero();
         let wo = -walk.ray.direction;
         let reflected = bsdf.eval(&frame.without_shading(), wo, wi) * adjoint(frame, wo);
@@ -151,47 +263,7 @@ impl Target<'_> {
         let Some(transmittance) = walk.visibility::<INTERIORS>(surface, wi, Some(seen.lens)) else { return };
         let camera = camera_density(scene, surface, wi);
         let weight = self.density.map_or(1.0, |light| balance_heuristic(light, camera));
-        let radiance = self.power * walk.throughput * reflected * transmittance;
-        self.deposit(seen.film, radiance * (weight * seen.importance));
-    }
-
-    /// A light that the camera sees directly: its own surface is where the path "ends".
-    fn splat_emitter<const INTERIORS: bool>(
-        &mut self,
-        walk: &mut Walk,
-        light: &Light,
-        emission: &Emission,
-        radiance: SampledSpectrum,
-    ) {
-        let LightKind::Area { area, two_sided, .. } = light.kind else { return };
-        let (scene, start) = (walk.scene, emission.start);
-        let Some(seen) = scene.camera.connect(start.point, [0.5; 2], self.tracer.filter.radius()) else { return };
-        let to_camera = seen.lens - start.point;
-        let cos = start.normal.dot(to_camera.normalize_or_zero());
-        if cos <= 0.0 {
-            return;
-        }
-        // The start belongs to one side of the light: a two-sided one has twice the area to draw from.
-        let per_area = area * if two_sided { 2.0 } else { 1.0 };
-        let surface = Surface {
-            t: 0.0,
-            point: offset_origin(start.point, start.error, start.normal, start.normal),
-            error: Vec3::ZERO,
-            geometric: start.normal.as_dvec3(),
-            shading: start.normal,
-            object: u32::MAX,
-        };
-        if let Some(transmittance) = walk.visibility::<INTERIORS>(&surface, to_camera, Some(seen.lens)) {
-            self.deposit(seen.film, radiance * transmittance * (per_area * cos * seen.importance));
-        }
-    }
-
-    fn deposit(&mut self, film: [f32; 2], radiance: SampledSpectrum) {
-        let xyz = Sensor::xyz(&self.weights, radiance);
-        let [width, height] = self.tracer.scene.camera.size();
-        self.tracer.filter.splat(film, width, height, |x, y, weight| {
-            let pixel = y * width + x;
-            self.splats.push(Splat { pixel, xyz: xyz.map(|v| v * f64::from(weight)) });
-        });
+        let radiance = start.power * walk.throughput * reflected * transmittance;
+        self.deposit(scene, seen.film, radiance * (weight * seen.importance));
     }
 }

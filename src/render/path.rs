@@ -1,7 +1,8 @@
 //! Camera paths with next-event estimation.
 
-use super::walk::{Crossing, Walk};
-use super::{Techniques, bounce};
+use super::bounce;
+use super::techniques::{Seen, Techniques};
+use super::walk::{Crossing, Parting, Walk};
 use crate::bsdf::{Bsdf, Indices};
 use crate::geometry::Frame;
 use crate::sampling::balance_heuristic;
@@ -12,14 +13,10 @@ use glam::Vec3;
 /// How the ray under way was chosen: what else could have found the light that it runs into.
 #[derive(Debug, Clone, Copy)]
 enum Origin {
-    /// By the camera, or by delta scattering alone since.
-    Delta {
-        /// Density per unit area with which camera rays reach the first surface, if that was diffuse. Then light paths
-        /// can end there too.
-        first_diffuse: Option<f32>,
-    },
+    /// By the camera, or by delta scattering alone since the last diffuse surface.
+    Delta,
     /// By scattering at `from` with this density in solid angle: next-event estimation could have found it as well.
-    Scattered { from: Vec3, pdf: f32, first_diffuse: Option<f32> },
+    Scattered { from: Vec3, pdf: f32 },
 }
 
 /// Radiance that arrives along a camera path, in the camera's medium.
@@ -28,20 +25,38 @@ pub fn radiance<const DISPERSION: bool, const INTERIORS: bool>(
     techniques: &Techniques,
     max_depth: u32,
 ) -> SampledSpectrum {
+    let camera_indices = if INTERIORS { Some(medium_indices(walk)) } else { None };
+    let context = Context { techniques, max_depth, camera_indices };
+    follow::<DISPERSION, INTERIORS>(walk, &context, Origin::Delta, Seen::Nothing)
+}
+
+/// What stays the same along a path.
+struct Context<'a> {
+    techniques: &'a Techniques,
+    max_depth: u32,
+    /// Of the medium that holds the camera.
+    camera_indices: Option<Indices>,
+}
+
+/// Radiance that arrives along the rest of a path.
+fn follow<const DISPERSION: bool, const INTERIORS: bool>(
+    walk: &mut Walk,
+    context: &Context,
+    mut origin: Origin,
+    mut seen: Seen,
+) -> SampledSpectrum {
     let scene = walk.scene;
     let mut radiance = SampledSpectrum::ZERO;
-    let mut origin = Origin::Delta { first_diffuse: None };
-    let camera_indices = if INTERIORS { Some(medium_indices(walk)) } else { None };
     loop {
         let surface = walk.advance::<INTERIORS>();
 
         // Emission.
         match &surface {
-            None => radiance += escaped::<INTERIORS>(walk, techniques, origin, &camera_indices),
-            Some(surface) => radiance += emitted::<INTERIORS>(walk, techniques, surface, origin, &camera_indices),
+            None => radiance += escaped::<INTERIORS>(walk, context, origin, seen),
+            Some(surface) => radiance += emitted::<INTERIORS>(walk, context, surface, origin, seen),
         }
         let Some(surface) = surface else { break };
-        if walk.depth >= max_depth {
+        if walk.depth >= context.max_depth {
             break;
         }
 
@@ -49,27 +64,47 @@ pub fn radiance<const DISPERSION: bool, const INTERIORS: bool>(
         let object = &scene.objects[surface.object as usize];
         let u = walk.random();
         if let Material::Dielectric { medium } = object.material {
-            match walk.meet_dielectric::<DISPERSION>(&surface, medium, u[2]) {
+            let lanes = walk.lanes;
+            let crossing = walk.meet_dielectric::<DISPERSION>(&surface, medium, u[2]);
+            if walk.parting == Parting::Terminate && walk.lanes != lanes {
+                // The baseline keeps one lane of all that it has gathered before, too.
+                radiance = radiance.only(walk.hero) * walk.lanes_at_start();
+            }
+            match crossing {
                 Crossing::Passed => continue,
                 Crossing::Ended => break,
-                Crossing::Scattered => origin = origin.after_delta(),
+                Crossing::Scattered => origin = Origin::Delta,
+                Crossing::Parted(ways) => {
+                    for way in 0..ways {
+                        if walk.set_out(way) {
+                            radiance += follow::<DISPERSION, INTERIORS>(walk, context, Origin::Delta, seen);
+                        }
+                    }
+                    break;
+                }
             }
         } else {
             // Opaque surfaces: light that arrives directly, then a new direction.
             let Some((bsdf, frame)) = walk.bsdf::<INTERIORS>(object, &surface) else { break };
             let wo = -walk.ray.direction;
             if !bsdf.is_specular() {
-                if walk.depth == 0 {
-                    origin = origin.at_first_diffuse(camera_density(scene, &surface, wo));
-                }
+                let before = seen;
+                seen = match seen {
+                    Seen::Nothing if walk.depth == 0 => Seen::Directly(camera_density(scene, &surface, wo)),
+                    Seen::Nothing => Seen::ThroughSpecular,
+                    _ => seen,
+                };
                 let receiver = Receiver { surface: &surface, bsdf: &bsdf, frame: &frame, wo };
-                let direct = direct_light::<INTERIORS>(walk, receiver, u);
-                radiance += direct * walk.throughput * radiance_ratio::<INTERIORS>(walk, &camera_indices);
+                let direct = direct_light::<INTERIORS>(walk, context.techniques, before, receiver, u);
+                radiance += direct * walk.throughput * radiance_ratio::<INTERIORS>(walk, &context.camera_indices);
+                if !walk.diffused() {
+                    break;
+                }
             }
             let Some(sample) = bounce(walk, &surface, &bsdf, &frame, [u[0], u[1]]) else { break };
             origin = match sample.pdf {
-                None => origin.after_delta(),
-                Some(pdf) => origin.after_scattering(surface.point, pdf),
+                None => Origin::Delta,
+                Some(pdf) => Origin::Scattered { from: surface.point, pdf },
             };
         }
         if !walk.survives(u[3]) {
@@ -79,34 +114,15 @@ pub fn radiance<const DISPERSION: bool, const INTERIORS: bool>(
     radiance
 }
 
-impl Origin {
-    fn first_diffuse(self) -> Option<f32> {
-        match self {
-            Self::Delta { first_diffuse } | Self::Scattered { first_diffuse, .. } => first_diffuse,
-        }
-    }
-
-    fn at_first_diffuse(self, density: f32) -> Self {
-        Self::Delta { first_diffuse: Some(density) }
-    }
-
-    fn after_delta(self) -> Self {
-        Self::Delta { first_diffuse: self.first_diffuse() }
-    }
-
-    fn after_scattering(self, from: Vec3, pdf: f32) -> Self {
-        Self::Scattered { from, pdf, first_diffuse: self.first_diffuse() }
-    }
-}
-
-fn medium_indices(walk: &mut Walk) -> Indices {
+/// Indices of what the path is in.
+pub fn medium_indices(walk: &mut Walk) -> Indices {
     let medium = walk.workspace.interiors.medium(walk.scene);
     walk.workspace.spectra.indices(walk.scene, medium)
 }
 
 /// (n_camera / n_here)²: radiance is collected here and recorded there. What refraction changes on the way telescopes to
 /// this, so that no path carries it.
-fn radiance_ratio<const INTERIORS: bool>(walk: &mut Walk, camera: &Option<Indices>) -> SampledSpectrum {
+pub fn radiance_ratio<const INTERIORS: bool>(walk: &mut Walk, camera: &Option<Indices>) -> SampledSpectrum {
     let (true, Some(camera)) = (INTERIORS, camera) else { return SampledSpectrum::ONE };
     let here = medium_indices(walk);
     if here == *camera {
@@ -126,34 +142,29 @@ pub fn camera_density(scene: &Scene, surface: &Surface, wo: Vec3) -> f32 {
 }
 
 /// Light met by a ray that leaves the scene.
-fn escaped<const INTERIORS: bool>(
-    walk: &mut Walk,
-    techniques: &Techniques,
-    origin: Origin,
-    camera: &Option<Indices>,
-) -> SampledSpectrum {
+fn escaped<const INTERIORS: bool>(walk: &mut Walk, context: &Context, origin: Origin, seen: Seen) -> SampledSpectrum {
     let scene = walk.scene;
     let mut radiance = SampledSpectrum::ZERO;
     for &index in &scene.infinite_lights {
         let light = &scene.lights[index as usize];
         let Some((factor, pdf)) = light.escaped(walk.ray.direction) else { continue };
-        let exit = Exit { point: walk.ray.origin, cos: 1.0 };
-        let weight = hit_weight(scene, techniques, index, origin, &exit, |_| pdf);
+        let exit = Exit { point: walk.ray.origin, direction: -walk.ray.direction, cos: 1.0 };
+        let weight = hit_weight(scene, context.techniques, index, (origin, seen), &exit, |_| pdf);
         radiance += walk.workspace.spectra.spectrum(scene, light.spectrum) * (factor * weight);
     }
     if radiance.is_zero() {
         return radiance;
     }
-    radiance * walk.throughput * radiance_ratio::<INTERIORS>(walk, camera)
+    radiance * walk.throughput * radiance_ratio::<INTERIORS>(walk, &context.camera_indices)
 }
 
 /// Light emitted by a surface that a ray has met.
 fn emitted<const INTERIORS: bool>(
     walk: &mut Walk,
-    techniques: &Techniques,
+    context: &Context,
     surface: &Surface,
     origin: Origin,
-    camera: &Option<Indices>,
+    seen: Seen,
 ) -> SampledSpectrum {
     let scene = walk.scene;
     let Some(index) = scene.objects[surface.object as usize].light else { return SampledSpectrum::ZERO };
@@ -162,30 +173,28 @@ fn emitted<const INTERIORS: bool>(
         return SampledSpectrum::ZERO;
     }
     let direction = walk.ray.direction;
-    let exit = Exit { point: surface.point, cos: surface.geometric.as_vec3().dot(direction).abs() };
-    let weight =
-        hit_weight(scene, techniques, index, origin, &exit, |from| light.pdf_surface(from, direction, surface));
+    let cos = surface.geometric.as_vec3().dot(direction).abs();
+    let exit = Exit { point: surface.point, direction: -direction, cos };
+    let pdf = |from| light.pdf_surface(from, direction, surface);
+    let weight = hit_weight(scene, context.techniques, index, (origin, seen), &exit, pdf);
     let emission = walk.workspace.spectra.spectrum(scene, light.spectrum);
-    emission * walk.throughput * weight * radiance_ratio::<INTERIORS>(walk, camera)
+    emission * walk.throughput * weight * radiance_ratio::<INTERIORS>(walk, &context.camera_indices)
 }
 
 /// Weight of a light found by running into it, against the other techniques that could have found the same path.
 fn hit_weight(
     scene: &Scene,
     techniques: &Techniques,
-    index: u32,
-    origin: Origin,
+    light: u32,
+    (origin, seen): (Origin, Seen),
     exit: &Exit,
     light_pdf: impl Fn(Vec3) -> f32,
 ) -> f32 {
     match origin {
-        Origin::Scattered { from, pdf, .. } => {
-            balance_heuristic(pdf, scene.light_table.probability(index as usize) * light_pdf(from))
+        Origin::Scattered { from, pdf } => {
+            balance_heuristic(pdf, scene.light_table.probability(light as usize) * light_pdf(from))
         }
-        Origin::Delta { first_diffuse: Some(camera) } => {
-            techniques.light_path_density(scene, index, exit).map_or(1.0, |light| balance_heuristic(camera, light))
-        }
-        Origin::Delta { first_diffuse: None } => 1.0,
+        Origin::Delta => techniques.camera_weight_of_caustic(scene, light, seen, exit),
     }
 }
 
@@ -199,15 +208,23 @@ struct Receiver<'a> {
 }
 
 /// Next-event estimation: light that arrives at a surface directly from one light drawn by its power, and from each local
-/// one.
-fn direct_light<const INTERIORS: bool>(walk: &mut Walk, receiver: Receiver, u: [f32; 8]) -> SampledSpectrum {
+/// one. `seen` is what the camera has seen before this surface.
+fn direct_light<const INTERIORS: bool>(
+    walk: &mut Walk,
+    techniques: &Techniques,
+    seen: Seen,
+    receiver: Receiver,
+    u: [f32; 8],
+) -> SampledSpectrum {
     let scene = walk.scene;
     let mut radiance = SampledSpectrum::ZERO;
     if let Some(draw) = scene.light_table.sample(u[4]) {
         radiance += light_from::<INTERIORS>(walk, receiver, &scene.lights[draw.index], draw.probability, [u[5], u[6]]);
     }
     for &light in &scene.local_lights {
-        radiance += light_from::<INTERIORS>(walk, receiver, &scene.lights[light as usize], 1.0, [u[5], u[6]]);
+        if techniques.camera_owns_local_light(light, seen) {
+            radiance += light_from::<INTERIORS>(walk, receiver, &scene.lights[light as usize], 1.0, [u[5], u[6]]);
+        }
     }
     radiance
 }

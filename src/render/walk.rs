@@ -1,7 +1,7 @@
 //! What camera paths and light paths have in common: a ray that carries lanes through surfaces and media.
 
-use super::workspace::Workspace;
-use crate::bsdf::{Bsdf, Conductor, Dielectric, Diffuse, Lanes, Mirror};
+use super::workspace::{Interiors, Workspace};
+use crate::bsdf::{Bsdf, Conductor, Dielectric, Diffuse, Incidence, Lanes, Mirror};
 use crate::geometry::{Frame, Ray};
 use crate::optics;
 use crate::sampling::{DIMENSIONS, Sobol};
@@ -13,6 +13,9 @@ use glam::Vec3;
 const NEGLIGIBLE: f32 = 1.0 / (1u128 << 100) as f32;
 /// Scattering events before Russian roulette.
 const ROULETTE_DEPTH: u32 = 4;
+
+/// Wavelengths of a path of the baseline `hero` \[PBRT4\].
+pub const BASELINE_LANES: usize = 4;
 
 /// Boundaries without effect that a path may cross: they do not count as events, and no path may go on for ever.
 const MAX_PASSED: u32 = 1 << 20;
@@ -28,10 +31,13 @@ pub struct Walk<'a> {
     pub ray: Ray,
     /// Flux that the path carries, in units of what it started with.
     pub throughput: SampledSpectrum,
-    /// Whether lanes still share the ray. Changed in [`Self::meet_dielectric`] alone.
+    /// Whether lanes still share the ray. Changed where they part, in [`Self::meet_dielectric`] and [`Self::set_out`], and
+    /// where one of them stands for all from then on, in [`Self::diffused`].
     pub lanes: Lanes,
-    /// The lane that goes on where lanes part.
+    /// The lane that goes on where only one does.
     pub hero: usize,
+    /// What happens where lanes part.
+    pub parting: Parting,
     /// Scattering events so far.
     pub depth: u32,
     /// Boundaries crossed so far that did nothing.
@@ -42,6 +48,32 @@ pub struct Walk<'a> {
     pub index: u64,
 }
 
+/// What becomes of lanes that share a ray where a refraction sends them apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parting {
+    /// So many of them (1, 2, 4 or 8), evenly spread and the hero among them, go on for all, each its own way, up to
+    /// their first diffuse surface. From there the hero stands for all.
+    Ways(u8),
+    /// The hero stands for all from wherever a dispersive surface is met, whatever happens there: the state of the art that
+    /// `hero` is kept for \[PBRT4\].
+    Terminate,
+}
+
+/// Lanes that have parted: what each of them sets out from. A lane on its own never parts again, so a path has one of these.
+#[derive(Debug, Default)]
+pub struct Bundle {
+    surface: Option<Surface>,
+    /// Directions of the lanes that are not reflected totally.
+    directions: [Option<Vec3>; LANES],
+    throughput: [f32; LANES],
+    hero: usize,
+    ways: u8,
+    depth: u32,
+    passed: u32,
+    /// What is past the surface.
+    interiors: Interiors,
+}
+
 /// What a dielectric surface did.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Crossing {
@@ -49,6 +81,8 @@ pub enum Crossing {
     Passed,
     /// Reflected or refracted.
     Scattered,
+    /// Refracted into a direction for each lane: so many go on, follow them one after the other by [`Walk::set_out`].
+    Parted(u8),
     /// Nothing is left of the path.
     Ended,
 }
@@ -59,11 +93,11 @@ impl<'a> Walk<'a> {
         scene: &'a Scene,
         workspace: &'a mut Workspace,
         ray: Ray,
-        hero: usize,
+        (hero, parting): (usize, Parting),
         (sobol, index): (Sobol, u64),
     ) -> Self {
         let (throughput, lanes) = (SampledSpectrum::ONE, Lanes::Shared);
-        Self { scene, workspace, ray, throughput, lanes, hero, depth: 0, passed: 0, sobol, index }
+        Self { scene, workspace, ray, throughput, lanes, hero, parting, depth: 0, passed: 0, sobol, index }
     }
 
     /// The eight random numbers of the current vertex.
@@ -88,35 +122,103 @@ impl<'a> Walk<'a> {
 
     /// Reflection, refraction or passage at the boundary of a transparent object.
     pub fn meet_dielectric<const DISPERSION: bool>(&mut self, surface: &Surface, medium: MediumId, u: f32) -> Crossing {
-        let Workspace { spectra, interiors, beyond, counters, .. } = &mut *self.workspace;
+        let Workspace { spectra, interiors, beyond, .. } = &mut *self.workspace;
         let known = beyond.set_past(interiors, self.scene, surface, medium, self.ray.direction);
         let (from, to) = (interiors.medium(self.scene), beyond.medium(self.scene));
         let boundary = Dielectric { from: spectra.indices(self.scene, from), to: spectra.indices(self.scene, to) };
-        let mut cross = || {
-            counters.medium_underflows += u64::from(!known);
-            std::mem::swap(interiors, beyond);
+        let cross = |workspace: &mut Workspace| {
+            workspace.counters.medium_underflows += u64::from(!known);
+            std::mem::swap(&mut workspace.interiors, &mut workspace.beyond);
         };
         if from == to || boundary.is_invisible() {
-            cross();
+            cross(self.workspace);
             self.ray = surface.spawn(self.ray.direction);
             self.passed += 1;
             return if self.passed < MAX_PASSED { Crossing::Passed } else { Crossing::Ended };
         }
+        if DISPERSION && self.parting == Parting::Terminate && boundary.is_dispersive() {
+            self.leave_to_hero();
+        }
         let entering = surface.geometric.dot(self.ray.direction.as_dvec3()) < 0.0;
-        let normal = if entering { surface.geometric } else { -surface.geometric };
-        let sample =
-            boundary.sample::<DISPERSION>(self.ray.direction, normal, self.lanes, self.hero, self.throughput, u);
+        let incidence =
+            Incidence::new(self.ray.direction, if entering { surface.geometric } else { -surface.geometric });
+        let sample = boundary.sample::<DISPERSION>(&incidence, self.lanes, self.throughput, u);
         self.throughput *= sample.weight;
-        if sample.parts_lanes && self.lanes == Lanes::Shared {
-            self.lanes = Lanes::Only(self.hero);
-            self.throughput = self.throughput.only(self.hero) * LANES as f32;
-        }
-        if sample.refracted {
-            cross();
-        }
         self.depth += 1;
-        self.ray = surface.spawn(sample.direction);
-        if self.throughput.is_zero() { Crossing::Ended } else { Crossing::Scattered }
+        if !sample.refracted {
+            self.ray = surface.spawn(incidence.reflected());
+            return if self.throughput.is_zero() { Crossing::Ended } else { Crossing::Scattered };
+        }
+        cross(self.workspace);
+        if DISPERSION && self.lanes == Lanes::Shared && boundary.is_dispersive() {
+            if let Parting::Ways(ways @ 2..) = self.parting {
+                let Workspace { interiors, bundle, .. } = &mut *self.workspace;
+                bundle.surface = Some(*surface);
+                bundle.directions = std::array::from_fn(|lane| boundary.refracted(&incidence, lane));
+                bundle.throughput = self.throughput.lanes();
+                (bundle.hero, bundle.ways) = (self.hero, ways);
+                (bundle.depth, bundle.passed) = (self.depth, self.passed);
+                bundle.interiors.copy_from(interiors);
+                return Crossing::Parted(ways);
+            }
+            self.leave_to_hero();
+        }
+        let lane = match self.lanes {
+            Lanes::Shared => 0,
+            Lanes::Bundled(lane) | Lanes::Only(lane) => lane,
+        };
+        match boundary.refracted(&incidence, lane) {
+            Some(direction) if !self.throughput.is_zero() => {
+                self.ray = surface.spawn(direction);
+                Crossing::Scattered
+            }
+            _ => Crossing::Ended,
+        }
+    }
+
+    /// From here on the hero stands for all lanes that shared the ray.
+    fn leave_to_hero(&mut self) {
+        if self.lanes == Lanes::Shared {
+            self.lanes = Lanes::Only(self.hero);
+            self.throughput = self.throughput.only(self.hero) * self.lanes_at_start();
+        }
+    }
+
+    /// Lanes that a path starts with.
+    pub fn lanes_at_start(&self) -> f32 {
+        if self.parting == Parting::Terminate { BASELINE_LANES as f32 } else { LANES as f32 }
+    }
+
+    /// Goes back to where lanes parted and follows the `way`-th of those that go on; `false` if nothing of it is left.
+    pub fn set_out(&mut self, way: u8) -> bool {
+        let Workspace { interiors, bundle, .. } = &mut *self.workspace;
+        let stride = LANES / usize::from(bundle.ways);
+        let lane = (bundle.hero + usize::from(way) * stride) % LANES;
+        let (Some(surface), Some(direction)) = (bundle.surface, bundle.directions[lane]) else { return false };
+        self.ray = surface.spawn(direction);
+        self.throughput = SampledSpectrum::new(bundle.throughput).only(lane) * stride as f32;
+        (self.lanes, self.parting) = (Lanes::Bundled(lane), Parting::Ways(bundle.ways));
+        (self.depth, self.passed) = (bundle.depth, bundle.passed);
+        interiors.copy_from(&bundle.interiors);
+        !self.throughput.is_zero()
+    }
+
+    /// To be told of every diffuse surface, before the path goes on from it: ways that a bundle took end there, but for
+    /// the hero's, which stands for all from then on. `false` if this one ends.
+    pub fn diffused(&mut self) -> bool {
+        if let Lanes::Bundled(lane) = self.lanes {
+            if lane != self.hero {
+                return false;
+            }
+            self.lanes = Lanes::Only(lane);
+            if let Parting::Ways(ways) = self.parting {
+                self.throughput *= f32::from(ways);
+            }
+        }
+        if self.parting != Parting::Terminate {
+            self.parting = Parting::Ways(1);
+        }
+        true
     }
 
     /// The scattering model of an opaque surface, with its normals turned to the path; `None` if nothing is reflected.
@@ -177,7 +279,7 @@ impl<'a> Walk<'a> {
     }
 
     fn visibility_through_media(&mut self, mut ray: Ray, limit: f32, target: Option<Vec3>) -> Option<SampledSpectrum> {
-        let Workspace { spectra, interiors, shadow_interiors, beyond, counters } = &mut *self.workspace;
+        let Workspace { spectra, interiors, shadow_interiors, beyond, counters, .. } = &mut *self.workspace;
         shadow_interiors.copy_from(interiors);
         let mut transmittance = SampledSpectrum::ONE;
         loop {
@@ -215,8 +317,13 @@ impl<'a> Walk<'a> {
         if self.depth < ROULETTE_DEPTH {
             return true;
         }
-        // The mean over lanes counts a parted lane, which stands for eight, like eight that share the ray.
-        let survival = self.throughput.mean().min(1.0);
+        // The mean over lanes counts a lane that stands for all like all that share the ray. One of a bundle is followed as
+        // often as it would be if it were alone.
+        let carried = match self.lanes {
+            Lanes::Shared | Lanes::Only(_) => self.throughput.mean(),
+            Lanes::Bundled(lane) => self.throughput.lane(lane),
+        };
+        let survival = carried.min(1.0);
         if u >= survival {
             return false;
         }

@@ -1,6 +1,7 @@
 //! What a thread keeps from path to path, so that no path allocates: spectra at the path's wavelengths, and the list of
 //! transparent objects that it is inside of.
 
+use super::walk::Bundle;
 use crate::bsdf::Indices;
 use crate::scene::{MediumId, Scene, SpectrumId, Surface};
 use crate::spectrum::{SampledSpectrum, Wavelengths};
@@ -17,6 +18,8 @@ pub struct Workspace {
     pub shadow_interiors: Interiors,
     /// The same past the surface at hand.
     pub beyond: Interiors,
+    /// Where the path's lanes have parted.
+    pub bundle: Bundle,
     /// What has been counted.
     pub counters: Counters,
 }
@@ -31,6 +34,12 @@ pub struct Counters {
 }
 
 impl Counters {
+    /// Adds another thread's, and tells its rays.
+    pub fn count(&mut self, other: Self) -> u64 {
+        self.add(other);
+        other.rays
+    }
+
     /// Adds another thread's.
     pub fn add(&mut self, other: Self) {
         self.rays += other.rays;
@@ -46,6 +55,7 @@ impl Workspace {
             interiors: Interiors::default(),
             shadow_interiors: Interiors::default(),
             beyond: Interiors::default(),
+            bundle: Bundle::default(),
             counters: Counters::default(),
         }
     }

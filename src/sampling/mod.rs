@@ -2,13 +2,17 @@
 //! square to directions and discs, and weights for combining techniques. Nothing here knows what is being sampled.
 
 mod alias;
+mod grid;
 mod mis;
 mod piecewise;
 mod sobol;
 mod warp;
 
 pub use alias::{AliasTable, Draw};
+pub use grid::GridDensity;
 pub use mis::balance_heuristic;
 pub use piecewise::PiecewiseLinearDensity;
 pub use sobol::{DIMENSIONS, Sobol, mix};
-pub use warp::{concentric_disk, cosine_hemisphere, uniform_cone, uniform_sphere};
+pub use warp::{
+    concentric_disk, concentric_disk_inverse, cosine_hemisphere, uniform_cone, uniform_cone_inverse, uniform_sphere,
+};

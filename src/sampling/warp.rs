@@ -16,6 +16,21 @@ pub fn concentric_disk(u: [f32; 2]) -> [f32; 2] {
     [radius * cos, radius * sin]
 }
 
+/// The numbers from which [`concentric_disk`] makes a point of the unit disc; clamped to the unit square.
+pub fn concentric_disk_inverse([x, y]: [f32; 2]) -> [f32; 2] {
+    let radius = (x * x + y * y).sqrt();
+    // The map works on wedges of 45° about the axes; the angle is measured from the nearest.
+    let angle_from = |across: f32, along: f32| math::atan2(f64::from(across), f64::from(along)) as f32 / FRAC_PI_4;
+    let (a, b) = if x.abs() > y.abs() {
+        let a = radius.copysign(x);
+        (a, a * angle_from(y * x.signum(), x.abs()))
+    } else {
+        let b = radius.copysign(y);
+        (b * angle_from(x * y.signum(), y.abs()), b)
+    };
+    [a, b].map(|c| (0.5 * (c + 1.0)).clamp(0.0, 1.0))
+}
+
 /// Directions about +z with density cos θ / π. Never exactly horizontal.
 pub fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
     let [x, y] = concentric_disk(u);
@@ -36,6 +51,15 @@ pub fn uniform_cone(u: [f32; 2], one_minus_cos: f32) -> Vec3 {
     around_z(1.0 - h, (h * (2.0 - h)).max(0.0).sqrt(), u[1])
 }
 
+/// The numbers from which [`uniform_cone`] makes a unit direction; clamped to the unit square.
+pub fn uniform_cone_inverse(direction: Vec3, one_minus_cos: f32) -> [f32; 2] {
+    // 1 − z = (x² + y²) / (1 + z), without cancellation.
+    let h = (direction.x * direction.x + direction.y * direction.y) / (1.0 + direction.z);
+    let turn = math::atan2(f64::from(direction.y), f64::from(direction.x)) as f32 / TAU;
+    let turn = if turn < 0.0 { turn + 1.0 } else { turn };
+    [(h / one_minus_cos).clamp(0.0, 1.0), turn.clamp(0.0, 1.0)]
+}
+
 /// A unit vector of height `z` and distance `radius` from the z axis, `turn` of the way around it.
 fn around_z(z: f32, radius: f32, turn: f32) -> Vec3 {
     let (sin, cos) = math::sin_cos_f32(if turn < 0.5 { TAU * turn } else { TAU * turn - 2.0 * PI });
@@ -46,6 +70,21 @@ fn around_z(z: f32, radius: f32, turn: f32) -> Vec3 {
 mod tests {
     use super::*;
     use crate::sampling::Sobol;
+
+    #[test]
+    fn inverses() {
+        let sobol = Sobol::new(4);
+        for i in 0..4096 {
+            let u = sobol.group(i, 0);
+            for (u, back) in [
+                ([u[0], u[1]], concentric_disk_inverse(concentric_disk([u[0], u[1]]))),
+                ([u[2], u[3]], uniform_cone_inverse(uniform_cone([u[2], u[3]], 0.3), 0.3)),
+                ([u[4], u[5]], uniform_cone_inverse(uniform_cone([u[4], u[5]], 1e-5), 1e-5)),
+            ] {
+                assert!((u[0] - back[0]).abs() < 1e-5 && (u[1] - back[1]).abs() < 1e-5, "{u:?} {back:?}");
+            }
+        }
+    }
 
     fn mean(f: impl Fn([f32; 2]) -> f64) -> f64 {
         let sobol = Sobol::new(11);

@@ -73,6 +73,11 @@ impl Camera {
         Some(Connection { film, lens: position, importance })
     }
 
+    /// Width of a pixel of the same area on the film at distance 1.
+    pub fn pixel_width(&self) -> f32 {
+        self.pixel_area().sqrt()
+    }
+
     /// Area of a pixel on the film at distance 1.
     fn pixel_area(&self) -> f32 {
         let [w, h] = self.half_extent;

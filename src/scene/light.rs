@@ -3,7 +3,10 @@
 use super::{Scene, SpectrumId, Surface};
 use crate::geometry::{Aabb, offset_origin, orthonormal_basis, sample_triangle};
 use crate::math;
-use crate::sampling::{AliasTable, concentric_disk, cosine_hemisphere, uniform_cone, uniform_sphere};
+use crate::sampling::{
+    AliasTable, concentric_disk, concentric_disk_inverse, cosine_hemisphere, uniform_cone, uniform_cone_inverse,
+    uniform_sphere,
+};
 use crate::spectrum::WavelengthDensity;
 use glam::Vec3;
 use std::f32::consts::{FRAC_1_PI, PI, TAU};
@@ -152,15 +155,26 @@ pub struct Emission {
 pub struct Exit {
     /// Where.
     pub point: Vec3,
+    /// Unit direction of travel.
+    pub direction: Vec3,
     /// Cosine to the light's normal; 1 off surfaces.
     pub cos: f32,
+}
+
+/// One of the pairs of random numbers of [`Light::emit`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GuidedPair {
+    /// The first: the point that a path starts from.
+    Point,
+    /// The second: its direction.
+    Direction,
 }
 
 impl Emission {
     /// How the path leaves its light.
     pub fn exit(&self) -> Exit {
         let cos = if self.start.normal == Vec3::ZERO { 1.0 } else { self.start.normal.dot(self.direction) };
-        Exit { point: self.start.point, cos }
+        Exit { point: self.start.point, direction: self.direction, cos }
     }
 }
 
@@ -331,6 +345,36 @@ impl Light {
             }
             LightKind::Directional { one_minus_cos, .. } if one_minus_cos > 0.0 => {
                 Some(1.0 / (TAU * one_minus_cos * PI * aim.radius * aim.radius))
+            }
+            _ => None,
+        }
+    }
+
+    /// Which of the pairs of random numbers that [`Self::emit`] takes decides what a path of this light meets.
+    pub fn guided_pair(&self) -> Option<GuidedPair> {
+        match self.kind {
+            LightKind::Point { .. } | LightKind::Spot { .. } | LightKind::Area { two_sided: false, .. } => {
+                Some(GuidedPair::Direction)
+            }
+            LightKind::Directional { .. } | LightKind::Beam { .. } => Some(GuidedPair::Point),
+            LightKind::Area { two_sided: true, .. } | LightKind::Environment => None,
+        }
+    }
+
+    /// The guided pair of numbers from which [`Self::emit`] makes this way of leaving the light. `None` if it makes it from
+    /// no such pair, or if the light has no extent, so that nobody asks.
+    pub fn guided_numbers(&self, exit: &Exit, aim: &Aim) -> Option<[f32; 2]> {
+        match self.kind {
+            LightKind::Area { two_sided: false, .. } => {
+                let (axis, one_minus_cos) = aim.cone(exit.point)?;
+                let (s, t) = orthonormal_basis(axis);
+                let local = Vec3::new(s.dot(exit.direction), t.dot(exit.direction), axis.dot(exit.direction));
+                Some(uniform_cone_inverse(local, one_minus_cos))
+            }
+            LightKind::Directional { one_minus_cos, .. } if one_minus_cos > 0.0 => {
+                let (s, t) = orthonormal_basis(exit.direction);
+                let offset = (exit.point - aim.center) / aim.radius;
+                Some(concentric_disk_inverse([s.dot(offset), t.dot(offset)]))
             }
             _ => None,
         }

@@ -12,7 +12,7 @@ mod solid;
 pub use camera::{Camera, Connection};
 pub use compile::{Compiled, FilmSettings, Integrator, RenderSettings, compile};
 pub use features::SceneFeatures;
-pub use light::{Aim, AreaShape, Emission, EmissionStart, Exit, Light, LightKind, LightSample};
+pub use light::{Aim, AreaShape, Emission, EmissionStart, Exit, GuidedPair, Light, LightKind, LightSample};
 pub use material::{Material, Medium, MediumId, SpectrumId};
 pub use solid::Solid;
 

@@ -10,11 +10,11 @@ pub const LAMBDA_MIN_NM: f64 = 360.0;
 pub const LAMBDA_MAX_NM: f64 = 830.0;
 
 /// Planck constant, J·s (exact, \[SI2019\]).
-const PLANCK: f64 = 6.626_070_15e-34;
+pub(crate) const PLANCK: f64 = 6.626_070_15e-34;
 /// Speed of light, m/s (exact, \[SI2019\]).
-const LIGHT_SPEED: f64 = 299_792_458.0;
+pub(crate) const LIGHT_SPEED: f64 = 299_792_458.0;
 /// Boltzmann constant, J/K (exact, \[SI2019\]).
-const BOLTZMANN: f64 = 1.380_649e-23;
+pub(crate) const BOLTZMANN: f64 = 1.380_649e-23;
 /// First radiation constant for radiance 2hc², W·m²·sr⁻¹.
 const C1_RADIANCE: f64 = 2.0 * PLANCK * LIGHT_SPEED * LIGHT_SPEED;
 /// Second radiation constant hc/k, m·K.

@@ -4,10 +4,12 @@
 
 mod function;
 mod piecewise_linear;
+pub mod resample;
 mod sampled;
 mod table;
 mod wavelengths;
 
+pub(crate) use function::{BOLTZMANN, LIGHT_SPEED, PLANCK};
 pub use function::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum, planck_radiance};
 pub(crate) use piecewise_linear::check_knot;
 pub use piecewise_linear::{MAX_TABULATED_VALUE, PiecewiseLinear};

@@ -52,8 +52,12 @@ pub enum Integrator {
     Auto,
     /// Camera paths alone.
     Path,
-    /// Light paths alone.
+    /// Light paths alone, of all kinds, each with one wavelength past a dispersive refraction.
     Light,
+    /// As `Auto`, with photon merging for every light that light paths can start from.
+    Merge,
+    /// The baseline: camera paths with four wavelengths, of which a dispersive surface leaves one.
+    Hero,
 }
 
 /// Size of the picture and how samples belong to pixels.
@@ -76,7 +80,7 @@ pub fn compile(description: &SceneDescription) -> Result<Compiled> {
 }
 
 fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
-    let integrator = integrator(description)?;
+    let integrator = integrator(description.render.integrator);
     let mut warnings = Vec::new();
     let placed = geometry::place(description, &mut warnings)?;
     let normalization = Normalization::of(description, &placed);
@@ -137,17 +141,13 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
     })
 }
 
-fn integrator(description: &SceneDescription) -> Result<Integrator> {
-    let not_yet = |name: &str| {
-        let message = format!("the integrator \"{name}\" is not there yet; expected \"auto\", \"path\" or \"light\"");
-        Err(Error::new(ErrorKind::Unsupported, message).at("render.integrator"))
-    };
-    match description.render.integrator {
-        IntegratorName::Auto => Ok(Integrator::Auto),
-        IntegratorName::Path => Ok(Integrator::Path),
-        IntegratorName::Light => Ok(Integrator::Light),
-        IntegratorName::Merge => not_yet("merge"),
-        IntegratorName::Hero => not_yet("hero"),
+fn integrator(name: IntegratorName) -> Integrator {
+    match name {
+        IntegratorName::Auto => Integrator::Auto,
+        IntegratorName::Path => Integrator::Path,
+        IntegratorName::Light => Integrator::Light,
+        IntegratorName::Merge => Integrator::Merge,
+        IntegratorName::Hero => Integrator::Hero,
     }
 }
 

@@ -1,0 +1,87 @@
+//! How the work is split between techniques: with variances V and costs c of their parts of the picture, the error for a given
+//! cost is least with numbers in proportion to √(V / c).
+
+use crate::film::Film;
+
+/// Camera samples a pixel after which the split is looked at again, each time four times as many. What is learnt changes
+/// only there.
+const FIRST_LOOK: u64 = 8;
+/// Variance of a pixel relative to its brightness squared beyond which it counts as this: the error of a pixel that has
+/// hardly been hit says little.
+const LARGEST: f64 = 1.0;
+/// Bounds of the number of light paths for each camera path, and of passes of merging for each sample of a pixel.
+const BOUNDS: [f64; 2] = [0.25, 4.0];
+
+/// Numbers relative to those of camera paths.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Allocation {
+    /// Light paths for each camera path.
+    pub light: f64,
+    /// Passes of merging for each sample of a pixel.
+    pub merged: f64,
+}
+
+/// Rays traced by each technique.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Spent {
+    /// For camera paths.
+    pub camera: u64,
+    /// For light paths.
+    pub light: u64,
+    /// For merging.
+    pub merged: u64,
+}
+
+impl Allocation {
+    /// Before anything is known.
+    pub const START: Self = Self { light: 1.0, merged: 0.25 };
+
+    /// The best split, after what has been measured with this one from a film and the rays that it took.
+    pub fn next(self, film: &Film, spent: &Spent) -> Self {
+        let Some(variances) = film.relative_variances(LARGEST) else { return self };
+        // With n samples at cost C in all and variance V of their mean: V n / (C / n) is V n² / C.
+        let better = |ratio: f64, variance: f64, rays: u64| {
+            let squared = ratio * ratio * variance * spent.camera as f64 / (variances.camera * rays as f64);
+            if squared.is_finite() { squared.sqrt().clamp(BOUNDS[0], BOUNDS[1]) } else { ratio }
+        };
+        Self {
+            light: better(self.light, variances.light, spent.light),
+            merged: better(self.merged, variances.merged, spent.merged),
+        }
+    }
+}
+
+/// The sample at which the segment that holds sample `done` ends.
+pub fn segment_end(done: u64, total: u64) -> u64 {
+    let mut end = FIRST_LOOK;
+    while end <= done {
+        end *= 4;
+    }
+    end.min(total)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::Splat;
+
+    #[test]
+    fn segments() {
+        let ends: Vec<u64> = [0, 7, 8, 31, 32, 99].into_iter().map(|done| segment_end(done, 100)).collect();
+        assert_eq!(ends, [8, 8, 32, 32, 100, 100]);
+    }
+
+    /// Equal variances and costs keep the split; four times the variance doubles the number.
+    #[test]
+    fn follows_variance_and_cost() {
+        let mut film = Film::new(1, 1, 1.0);
+        film.camera_mut()[0].add_sample(0, [0.9; 3]);
+        film.camera_mut()[0].add_sample(1, [1.1; 3]);
+        for (replicate, value) in [(0, 0.8), (1, 1.2)] {
+            film.add_splats(replicate, 1, 1.0, &[Splat { pixel: 0, xyz: [value; 3] }]);
+        }
+        let next = Allocation { light: 1.0, merged: 0.5 }.next(&film, &Spent { camera: 100, light: 100, merged: 0 });
+        assert!((next.light - 2.0).abs() < 1e-9, "{next:?}");
+        assert_eq!(next.merged, 0.5, "nothing is known of it");
+    }
+}

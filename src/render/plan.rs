@@ -1,0 +1,115 @@
+//! What is decided before a render: which techniques run, where light paths start, and how the work is split. It follows
+//! from the scene, the settings and a short pilot whose samples are thrown away, so that what is learnt cannot bias what is
+//! measured, and from counted operations, never from a clock.
+
+use super::allocation::Allocation;
+use super::guide::Guide;
+use super::merge::Merging;
+use super::techniques::Techniques;
+use super::walk::Parting;
+use crate::sampling::AliasTable;
+use crate::scene::{Integrator, Light, LightKind, Scene};
+use crate::spectrum::LANES;
+use std::fmt;
+
+/// Ways that a bundle takes where nothing is known of a scene: the best or next to it in all that were measured.
+const USUAL_WAYS: u8 = 2;
+
+/// The decisions.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// Which technique finds what.
+    pub techniques: Techniques,
+    /// What camera paths do where lanes part.
+    pub camera_parting: Parting,
+    /// What light paths do there.
+    pub light_parting: Parting,
+    /// How photons are merged, if they are.
+    pub merging: Option<Merging>,
+}
+
+/// The decisions in numbers, for people.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Decisions {
+    /// Lanes that go on where they part, on camera paths.
+    pub camera_ways: u32,
+    /// The same on light paths.
+    pub light_ways: u32,
+    /// Light paths for each camera path; 0 without them.
+    pub light_paths_per_camera_path: f64,
+    /// Passes of merging for each sample of a pixel; 0 without it.
+    pub merge_passes_per_sample: f64,
+    /// Photon paths of each pass of merging; 0 without it.
+    pub photon_paths_per_pass: u64,
+    /// Rays traced to decide.
+    pub pilot_rays: u64,
+}
+
+impl Plan {
+    /// What follows from the scene alone.
+    pub fn of_scene(scene: &Scene, integrator: Integrator) -> Self {
+        let ways = |ways| Parting::Ways(if scene.features.dispersion { ways } else { 1 });
+        let techniques = match integrator {
+            Integrator::Path | Integrator::Hero => Techniques::Path,
+            Integrator::Light => Techniques::Light { guide: Guide::plain(scene.emission_table.clone(), scene) },
+            Integrator::Auto => camera_and_light(scene, scene.caustic_table.clone()),
+            Integrator::Merge => camera_and_light(scene, every_light(scene)),
+        };
+        Self {
+            camera_parting: if integrator == Integrator::Hero { Parting::Terminate } else { ways(USUAL_WAYS) },
+            light_parting: ways(if integrator == Integrator::Light { 1 } else { USUAL_WAYS }),
+            techniques,
+            merging: None,
+        }
+    }
+
+    /// In numbers.
+    pub fn decisions(&self, pilot_rays: u64, allocation: Allocation) -> Decisions {
+        let ways = |parting| if let Parting::Ways(ways) = parting { u32::from(ways) } else { 1 };
+        Decisions {
+            camera_ways: ways(self.camera_parting),
+            light_ways: ways(self.light_parting),
+            light_paths_per_camera_path: f64::from(self.techniques.light_paths_per_camera_path()),
+            merge_passes_per_sample: if self.merging.is_some() { allocation.merged } else { 0.0 },
+            photon_paths_per_pass: self.merging.as_ref().map_or(0, |m| m.photon_paths),
+            pilot_rays,
+        }
+    }
+}
+
+/// Camera paths, and light paths if there are lights in the table and something that focuses them.
+fn camera_and_light(scene: &Scene, lights: AliasTable) -> Techniques {
+    if lights.is_empty() || scene.caustic_aim.is_none() {
+        return Techniques::Path;
+    }
+    let guide = Guide::plain(lights, scene);
+    Techniques::CameraAndLight { light_paths_per_camera_path: 1.0, guide, merging: false }
+}
+
+/// All lights that light paths can start from but the environment, by power.
+fn every_light(scene: &Scene) -> AliasTable {
+    let weight = |(index, light): (usize, &Light)| match light.kind {
+        LightKind::Environment => 0.0,
+        _ => f64::from(scene.emission_table.probability(index)),
+    };
+    AliasTable::new(&scene.lights.iter().enumerate().map(weight).collect::<Vec<_>>())
+}
+
+impl fmt::Display for Decisions {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "plan: {} of {LANES} lanes go on where they part", self.camera_ways)?;
+        if self.light_paths_per_camera_path > 0.0 {
+            let ratio = self.light_paths_per_camera_path;
+            write!(f, "; {ratio:.2} light paths for each camera path, {} lanes", self.light_ways)?;
+        }
+        if self.photon_paths_per_pass > 0 {
+            let passes = self.merge_passes_per_sample;
+            write!(
+                f,
+                "; {passes:.2} passes of merging for each sample, {} photon paths each",
+                self.photon_paths_per_pass
+            )?;
+        }
+        write!(f, "; decided with {} rays", self.pilot_rays)
+    }
+}
