@@ -13,6 +13,7 @@ use super::smoothest::{Link, solve_curve};
 use super::target::{KNOTS, REFLECTANCE, knots_nm, refined, spectrum_of};
 use super::{cannot_be_a_reflectance, check_components};
 use crate::color::RgbSpace;
+use crate::color::space::lab_from_xyz;
 use crate::math;
 use crate::spectrum::Spectrum;
 use crate::{Error, ErrorKind, Result};
@@ -209,14 +210,9 @@ fn with_residual(weights: &[DVec3], color: DVec3, residual: &[f64]) -> Option<Ve
     SHARES.into_iter().find_map(with_share).or(Some(smoothest))
 }
 
-/// CIE Lab under the integrated white of D65, of linear RGB of the sRGB primaries; negative components go on straight.
+/// CIE Lab under the integrated white of D65, of linear RGB of the sRGB primaries.
 fn lab(color: DVec3) -> DVec3 {
-    const DELTA: f64 = 6.0 / 29.0;
-    let f = |t: f64| {
-        if t > DELTA * DELTA * DELTA { math::cbrt(t) } else { t / (3.0 * DELTA * DELTA) + 4.0 / 29.0 }
-    };
-    let [x, y, z] = (REFLECTANCE.xyz_from_rgb * color / REFLECTANCE.white).to_array().map(f);
-    DVec3::new(116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z))
+    lab_from_xyz(REFLECTANCE.xyz_from_rgb * color, REFLECTANCE.white)
 }
 
 /// A positive definite function of the distance in three dimensions that is 0 from 1 on and twice differentiable.
