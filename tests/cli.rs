@@ -277,8 +277,19 @@ fn what_is_not_there_yet_is_refused_not_ignored() {
     for flag in [["--bands", "8"], ["--time", "3"], ["--target-error", "1e-3"]] {
         folder.abbe(&[&["render", "scene.json"], &flag[..]].concat()).fails(2, &[flag[0], "not there yet"]);
     }
-    for name in ["merge", "hero"] {
-        folder.abbe(&["render", "scene.json", "--integrator", name]).fails(3, &["scene.json", name, "not there yet"]);
+}
+
+#[test]
+fn every_integrator_renders_and_tells_its_plan() {
+    let folder = Folder::with_scene();
+    for name in ["auto", "path", "light", "merge", "hero"] {
+        let run =
+            folder.abbe(&["render", "scene.json", "--integrator", name, "--spp", "2", "-o", "a.exr", "--json", "-v"]);
+        assert_eq!(run.code, Some(0), "{name}: {run:?}");
+        assert!(run.err.contains("plan: "), "{name}: {}", run.err);
+        let told: Value = serde_json::from_slice(&run.out).unwrap();
+        assert!(told["plan"]["camera_ways"].as_u64().is_some(), "{name}: {told}");
+        assert_eq!(told["non_finite_samples"], 0, "{name}");
     }
 }
 

@@ -239,6 +239,5 @@ const COMPILED: &[Edit] = &[
     ("emission outside the locus", "\"intensity\": 1.0", "\"intensity\": {\"rgb\": [0, 0, 1], \"space\": \"rec2020\"}", "out_of_range", "lights[0].intensity.rgb", "less saturated"),
     ("transform underflows", "\"material\": \"glass\"", "\"material\": \"glass\", \"transform\": [{\"scale\": 1e-30}, {\"scale\": 1e-30}, {\"scale\": 1e-30}, {\"scale\": 1e-30}]", "degenerate", "objects[1].transform", "singular"),
     ("transform too uneven", "\"material\": \"glass\"", "\"material\": \"glass\", \"transform\": [{\"scale\": [1e25, 1e-25, 1]}]", "degenerate", "objects[1].transform", "expected below 1e12"),
-    ("integrator of later", "\"render\": {}", "\"render\": {\"integrator\": \"merge\"}", "unsupported", "render.integrator", "\"auto\", \"path\" or \"light\""),
     ("illuminant as reflectance", "\"reflectance\": \"red_paint\"", "\"reflectance\": {\"illuminant\": \"D65\"}", "out_of_range", "materials.floor.reflectance", "[0, 1]"),
 ];
