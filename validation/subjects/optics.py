@@ -19,21 +19,23 @@ def comparisons():
             if sine < 1.0:
                 inner = colour.phenomena.snell_law(n_1, n_2, angle)
                 reflected = colour.phenomena.polarised_light_reflection_coefficient(n_1, n_2, angle, inner)
-                expected.append([float(np.mean(np.real(reflected))), float(np.sin(np.radians(inner)))])
+                expected.append([float(np.mean(np.real(reflected))), float(np.cos(np.radians(inner)))])
             else:
-                expected.append([1.0, sine])
+                expected.append([1.0, 0.0])
             arguments.append([float(np.cos(np.radians(angle))), n_1, n_2])
     metal_arguments, metal_expected = [], []
     for n, k in METALS:
         for angle in ANGLES:
-            m = n + 1j * k
-            inner = np.degrees(np.arcsin(np.sin(np.radians(angle)) / m + 0j))
-            reflected = colour.phenomena.polarised_light_reflection_coefficient(1.0, m, angle, inner)
+            # colour-science takes no complex angles: the textbook's amplitudes, in complex arithmetic.
+            m, cosine, sine = n + 1j * k, np.cos(np.radians(angle)), np.sin(np.radians(angle))
+            root = np.sqrt(m * m - sine * sine)
+            r_s = (cosine - root) / (cosine + root)
+            r_p = (m * m * cosine - root) / (m * m * cosine + root)
             metal_arguments.append([float(np.cos(np.radians(angle))), 1.0, n, k])
-            metal_expected.append(float(np.mean(np.real(reflected))))
-    metals = "reflectance of metals v. colour.phenomena"
+            metal_expected.append(float((abs(r_s) ** 2 + abs(r_p) ** 2) / 2))
+    metals = "reflectance of metals v. complex arithmetic"
     return [
-        Comparison("refraction: reflectance and sine v. colour.phenomena", "refract", arguments, expected, 1e-12),
+        Comparison("refraction: reflectance and cosine v. colour.phenomena", "refract", arguments, expected, 1e-12),
         Comparison(metals, "conductor_reflectance", metal_arguments, metal_expected, 1e-12),
     ]
 

@@ -7,14 +7,12 @@ use serde_json::{Value, json};
 /// By name.
 pub const FUNCTIONS: &[(&str, Function)] = &[("refract", refract), ("conductor_reflectance", conductor)];
 
-/// Reflectance of unpolarised light, and the sine of the refracted ray; 1 and the sine that Snell's law would need beyond the
-/// critical angle. Of `[cos θ, n, n']`.
+/// Reflectance of unpolarised light, and the cosine of the refracted ray; 1 and 0 beyond the critical angle. Of
+/// `[cos θ, n, n']`.
 fn refract(argument: &Value) -> Answer {
     let [cos_theta, from, to]: [f64; 3] = read(argument)?;
-    Ok(match optics::refract(cos_theta, from, to) {
-        Some(r) => json!([r.reflectance, (1.0 - r.cos_theta_t * r.cos_theta_t).max(0.0).sqrt()]),
-        None => json!([1.0, from / to * (1.0 - cos_theta * cos_theta).sqrt()]),
-    })
+    let refraction = optics::refract(cos_theta, from, to);
+    Ok(refraction.map_or(json!([1.0, 0.0]), |r| json!([r.reflectance, r.cos_theta_t])))
 }
 
 /// Of `[cos θ, n outside, n, k]`.
