@@ -10,6 +10,7 @@ import argparse
 import hashlib
 import importlib
 import json
+import multiprocessing
 import os
 import shutil
 import subprocess
@@ -70,21 +71,30 @@ def evaluate(function, arguments):
 
 
 def subject_rows(only, frozen):
-    """The modules of subjects/, each with `comparisons()`, `checks(evaluate)` or both."""
+    """Rows of the modules of subjects/, two at a time. Each has a process of its own: colour-science's tables can be changed
+    in place, and what one subject does to them must not reach another."""
+    import colour  # noqa: F401 - a forked process has it already
+
+    names = [path.stem for path in sorted((HERE / "subjects").glob("*.py")) if not only or path.stem in only]
+    method = "fork" if "fork" in multiprocessing.get_all_start_methods() else "spawn"
+    with multiprocessing.get_context(method).Pool(2, maxtasksperchild=1) as pool:
+        return sum(pool.map(rows_of, [(name, frozen) for name in names], chunksize=1), [])
+
+
+def rows_of(task):
+    """Rows of one module, which has `comparisons()`, `checks(evaluate)` or both."""
+    name, frozen = task
+    sys.path.insert(0, str(HERE))
     import comparison
 
-    rows = []
-    for path in sorted((HERE / "subjects").glob("*.py")):
-        if only and path.stem not in only:
-            continue
-        module = importlib.import_module("subjects." + path.stem)
-        comparisons = module.comparisons() if hasattr(module, "comparisons") else []
-        values = evaluate_all([(c.function, c.arguments) for c in comparisons])
-        rows += [c.row(v) for c, v in zip(comparisons, values)]
-        if hasattr(module, "checks"):
-            rows += module.checks(evaluate)
-        if frozen:
-            comparison.freeze(HERE / "reference", path.stem, comparisons)
+    module = importlib.import_module("subjects." + name)
+    comparisons = module.comparisons() if hasattr(module, "comparisons") else []
+    values = evaluate_all([(c.function, c.arguments) for c in comparisons])
+    rows = [c.row(v) for c, v in zip(comparisons, values)]
+    if hasattr(module, "checks"):
+        rows += module.checks(evaluate)
+    if frozen:
+        comparison.freeze(HERE / "reference", name, comparisons)
     return rows
 
 
