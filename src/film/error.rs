@@ -135,38 +135,21 @@ impl Film {
     }
 
     /// Factors from squares of film sums to relative ones. A pixel's own value is no measure of its brightness where its
-    /// error is large: what stands out by chance would make its error look small. Its two replicates of camera samples tell
-    /// between what it lies, and the pixels around it where.
+    /// error is large: what stands out by chance would make its error look small. The geometric mean of it and of what
+    /// both replicates of camera samples have found comes close, on average, to what the true brightness gives.
     fn relative_scales(&self) -> Vec<Xyz> {
         let image = self.to_xyz();
         let mean = image.iter().flatten().sum::<f64>() / (3 * image.len()) as f64;
-        let scale = |i: f64| self.scale * self.scale / (i * i + 0.01 * mean * mean).max(f64::MIN_POSITIVE);
-        let of_pixel = |pixel: usize| {
-            let around = self.mean_around(&image, pixel);
+        let of_pixel = |(pixel, xyz): (usize, &Xyz)| {
             let of_camera = self.camera_mean(pixel);
             let [a, b] = self.camera_replicates(pixel).unwrap_or([of_camera; CAMERA_REPLICATES]);
             std::array::from_fn(|c| {
-                let rest = image[pixel][c] - self.scale * of_camera[c];
-                let (low, high) = (a[c].min(b[c]), a[c].max(b[c]));
-                scale(around[c].max(rest + self.scale * low).min(rest + self.scale * high))
+                let found_twice = xyz[c] - self.scale * (of_camera[c] - a[c].min(b[c]));
+                let brightness = (xyz[c] * found_twice).max(0.0) + 0.01 * mean * mean;
+                self.scale * self.scale / brightness.max(f64::MIN_POSITIVE)
             })
         };
-        (0..image.len()).map(of_pixel).collect()
-    }
-
-    /// Mean of the pixels around one, without itself; its own value if it is alone.
-    fn mean_around(&self, image: &[Xyz], pixel: usize) -> Xyz {
-        let (width, height) = (self.width as usize, self.height as usize);
-        let (x, y) = (pixel % width, pixel / width);
-        let (rows, columns) = (y.saturating_sub(1)..(y + 2).min(height), x.saturating_sub(1)..(x + 2).min(width));
-        let others = (rows.len() * columns.len() - 1) as f64;
-        let mut sum = image[pixel].map(|v| if others > 0.0 { -v } else { v });
-        for row in rows {
-            for column in columns.clone() {
-                (0..3).for_each(|c| sum[c] += if others > 0.0 { image[row * width + column][c] } else { 0.0 });
-            }
-        }
-        sum.map(|v| v / others.max(1.0))
+        image.iter().enumerate().map(of_pixel).collect()
     }
 }
 
@@ -248,23 +231,18 @@ mod tests {
         assert!(film.camera_mut()[0].add_sample(0, [1.0; 3]));
         assert_eq!(film.estimated_relative_mse(), None);
         film.camera_mut()[0].add_sample(1, [3.0; 3]);
-        // Mean 2; variance of the mean (3 − 1)² / 4 = 1, relative to 4 + 0.01 · 4.
-        assert!((film.estimated_relative_mse().unwrap() - 1.0 / 4.04).abs() < 1e-12);
+        // Mean 2, of which both have found 1; variance of the mean (3 − 1)² / 4 = 1, relative to 2 · 1 + 0.01 · 4.
+        assert!((film.estimated_relative_mse().unwrap() - 1.0 / 2.04).abs() < 1e-12);
         assert_eq!(film.standard_error(0), [1.0; 3]);
     }
 
-    /// A pixel may stand out by chance, and is not to make its own error look small then; a highlight that both replicates
-    /// have found is one.
+    /// A pixel may stand out by chance, and is not to make its own error look small then.
     #[test]
     fn a_spike_does_not_hide_its_error() {
-        let estimate =
-            |spike: [f64; 2]| film_of(&[[1.0; 2], [1.0; 2], spike, [1.0; 2], [1.0; 2]]).estimated_relative_mse();
-        // Mean 20.8; variance of the spike 100², relative to 1 + 0.01 · 20.8².
-        let expected = 1e4 / (1.0 + 0.01 * 20.8 * 20.8) / 5.0;
-        assert!((estimate([0.0, 200.0]).unwrap() / expected - 1.0).abs() < 1e-12);
-        // Variance 10², relative to 90² + 0.01 · 20.8².
-        let expected = 1e2 / (90.0 * 90.0 + 0.01 * 20.8 * 20.8) / 5.0;
-        assert!((estimate([90.0, 110.0]).unwrap() / expected - 1.0).abs() < 1e-12);
+        let film = film_of(&[[1.0; 2], [1.0; 2], [0.0, 200.0], [1.0; 2], [1.0; 2]]);
+        // Mean 20.8; variance of the spike 100², relative to 0.01 · 20.8² alone: only one replicate has found anything.
+        let expected = 1e4 / (0.01 * 20.8 * 20.8) / 5.0;
+        assert!((film.estimated_relative_mse().unwrap() / expected - 1.0).abs() < 1e-12);
     }
 
     /// Equal pixels share the uncertainty; one that holds all of the error leaves a single degree of freedom.
