@@ -152,7 +152,7 @@ fn a_file_as_reference_and_a_mask() {
 #[test]
 fn refusals_in_one_line() {
     let folder = Folder::new();
-    folder.refuses(&["ball.json", "--calibrate"], 2, "`--calibrate` is not there yet");
+    folder.refuses(&["ball.json", "--calibrate", "--against", "x=y {spp} {out}"], 2, "makes no claims");
     folder.refuses(&["none.json"], 3, "none.json");
     folder.refuses(&["ball.json", "--vary", "lanes=4"], 2, "no such setting; expected one of integrator, max-depth");
     folder.refuses(&["ball.json", "--reference", "heroo"], 2, "did you mean \"hero\"?");

@@ -6,8 +6,9 @@
 //! that is in part a blur by the radius.
 
 use super::light::{Arrival, Collector, LightTracer, Start};
+use super::passes::{tile_pixels, tiles};
 use super::walk::{Crossing, Parting, Walk};
-use super::{Renderer, bounce, path, tile_pixels, tiles};
+use super::{Renderer, bounce, path};
 use crate::bsdf::{Bsdf, Indices, Lanes};
 use crate::film::{Film, LIGHT_REPLICATES, Splat};
 use crate::geometry::Frame;
@@ -24,6 +25,8 @@ use super::workspace::{Counters, Workspace};
 const FIRST_RADIUS_PIXELS: f32 = 3.0;
 /// Speed of shrinking: r²ᵢ₊₁ = r²ᵢ (i + α) / (i + 1).
 const ALPHA: f64 = 2.0 / 3.0;
+/// The blur of the mean over passes falls with r², and so with their number to this power.
+pub const BLUR_DECAY: f64 = 1.0 - ALPHA;
 /// Camera paths that look for surfaces to merge on before the first pass, along each side of the picture.
 const PROBES: u32 = 96;
 /// Share of the pixels without such a surface so far that are looked at again in a pass.

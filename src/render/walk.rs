@@ -108,8 +108,9 @@ impl<'a> Walk<'a> {
     /// The first surface ahead; light is absorbed on the way there.
     #[inline]
     pub fn advance<const INTERIORS: bool>(&mut self) -> Option<Surface> {
-        self.workspace.counters.rays += 1;
-        let surface = self.scene.closest(&self.ray, f32::INFINITY);
+        let counters = &mut self.workspace.counters;
+        counters.shared_segments += u64::from(self.lanes == Lanes::Shared);
+        let surface = counters.closest(self.scene, &self.ray, f32::INFINITY);
         if INTERIORS {
             let medium = self.workspace.interiors.medium(self.scene);
             let distance = surface.map_or(f32::INFINITY, |s| s.t);
@@ -272,8 +273,8 @@ impl<'a> Walk<'a> {
             None => f32::INFINITY,
         };
         if !INTERIORS {
-            self.workspace.counters.rays += 1;
-            return (!self.scene.occluded(&ray, limit)).then_some(SampledSpectrum::ONE);
+            let occluded = self.workspace.counters.occluded(self.scene, &ray, limit);
+            return (!occluded).then_some(SampledSpectrum::ONE);
         }
         self.visibility_through_media(ray, limit, target)
     }
@@ -283,8 +284,8 @@ impl<'a> Walk<'a> {
         shadow_interiors.copy_from(interiors);
         let mut transmittance = SampledSpectrum::ONE;
         loop {
-            counters.rays += 1;
-            let hit = self.scene.closest(&ray, limit);
+            counters.shadow_rays += 1;
+            let hit = counters.closest(self.scene, &ray, limit);
             let medium = shadow_interiors.medium(self.scene);
             let distance =
                 hit.map_or(if target.is_some() { 1.0 } else { f32::INFINITY }, |h| h.t) * ray.direction.length();

@@ -29,6 +29,10 @@ pub struct Run {
     pub rays: Option<u64>,
     /// Largest resident memory while it ran, where the system tells.
     pub peak_memory_bytes: Option<u64>,
+    /// Samples of each pixel, where abbe tells.
+    pub samples_per_pixel: u64,
+    /// What abbe claims that the relMSE is below.
+    pub claimed_relmse: Option<f64>,
     /// relMSE against the reference as it is.
     pub raw_relmse: f64,
     /// The same without the worst 0.1 % of the pixels.
@@ -105,14 +109,16 @@ pub fn abbe(session: &Session, work: &Work, settings: &RenderSettings) -> (Image
     let compiled = &work.compiled;
     let (picture, statistics) = session.pool.install(|| {
         let go_on = &mut |_: Progress| true;
-        let (film, statistics) = render(&compiled.scene, settings, &compiled.film, none, go_on);
-        (film.to_xyz(), statistics)
+        let rendering = render(&compiled.scene, settings, &compiled.film, none, go_on);
+        (rendering.film.to_xyz(), rendering.statistics)
     });
     let run = Run {
         seed: settings.seed,
         wall_seconds: started.elapsed().as_secs_f64(),
         cpu_seconds: session.clock.own() - cpu,
         rays: Some(statistics.counters.rays),
+        samples_per_pixel: statistics.samples,
+        claimed_relmse: statistics.error_bound,
         peak_memory_bytes: process::peak_memory_bytes(),
         ..Run::default()
     };

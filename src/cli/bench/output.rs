@@ -49,7 +49,7 @@ fn to_csv(reports: &[SceneReport]) -> String {
 }
 
 /// A CSV field.
-fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     let plain = !text.contains([',', '"', '\n', '\r']);
     if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
 }
