@@ -42,10 +42,12 @@ def main():
     parser.add_argument("--blocks", type=int, default=4, help="blocks along each side")
     parser.add_argument("--reference", nargs="+", required=True, help="runs of the one")
     parser.add_argument("--test", nargs="+", required=True, help="runs of the other")
+    parser.add_argument("--scale", type=float, default=1.0, help="factor of the other's pictures")
     wanted = parser.parse_args()
     runs = [
         numpy.array([block_means(path, wanted.blocks) for path in paths]) for paths in (wanted.reference, wanted.test)
     ]
+    runs[1] *= wanted.scale
     reference, test = (run.mean(axis=0) for run in runs)
     variance = sum(run.var(axis=0, ddof=1) / len(run) for run in runs)
     whole = reference.mean(axis=(0, 1))
