@@ -134,43 +134,39 @@ impl Film {
         std::array::from_fn(|c| 0.25 * (a[c] - b[c]) * (a[c] - b[c]))
     }
 
-    /// Factors from squares of film sums to relative ones. Whether what only one replicate of camera samples has found
-    /// belongs to a pixel or came by a rare chance is not known: it does not count as the pixel's brightness, unless both
-    /// have found as much next to it.
+    /// Factors from squares of film sums to relative ones. A pixel's own value is no measure of its brightness where its
+    /// error is large: what stands out by chance would make its error look small. Its two replicates of camera samples tell
+    /// between what it lies, and the pixels around it where.
     fn relative_scales(&self) -> Vec<Xyz> {
-        let pixels = 0..self.camera.len();
         let image = self.to_xyz();
         let mean = image.iter().flatten().sum::<f64>() / (3 * image.len()) as f64;
-        let found_twice: Vec<Xyz> = pixels.clone().map(|pixel| self.found_twice(pixel)).collect();
         let scale = |i: f64| self.scale * self.scale / (i * i + 0.01 * mean * mean).max(f64::MIN_POSITIVE);
-        pixels
-            .map(|pixel| {
-                let around = self.largest_around(&found_twice, pixel);
-                std::array::from_fn(|c| scale(image[pixel][c].min(around[c])))
+        let of_pixel = |pixel: usize| {
+            let around = self.mean_around(&image, pixel);
+            let of_camera = self.camera_mean(pixel);
+            let [a, b] = self.camera_replicates(pixel).unwrap_or([of_camera; CAMERA_REPLICATES]);
+            std::array::from_fn(|c| {
+                let rest = image[pixel][c] - self.scale * of_camera[c];
+                let (low, high) = (a[c].min(b[c]), a[c].max(b[c]));
+                scale(around[c].max(rest + self.scale * low).min(rest + self.scale * high))
             })
-            .collect()
+        };
+        (0..image.len()).map(of_pixel).collect()
     }
 
-    /// XYZ of a pixel with the lesser of its two replicates of camera samples.
-    fn found_twice(&self, pixel: usize) -> Xyz {
-        let camera = self.camera_replicates(pixel).unwrap_or_default();
-        std::array::from_fn(|c| {
-            let least = camera.iter().map(|replicate| replicate[c]).fold(f64::INFINITY, f64::min);
-            self.scale * (least + self.light.mean(pixel, c) + self.merged.mean(pixel, c))
-        })
-    }
-
-    /// Largest values of a pixel and those around it.
-    fn largest_around(&self, image: &[Xyz], pixel: usize) -> Xyz {
+    /// Mean of the pixels around one, without itself; its own value if it is alone.
+    fn mean_around(&self, image: &[Xyz], pixel: usize) -> Xyz {
         let (width, height) = (self.width as usize, self.height as usize);
         let (x, y) = (pixel % width, pixel / width);
-        let mut largest = image[pixel];
-        for row in y.saturating_sub(1)..(y + 2).min(height) {
-            for column in x.saturating_sub(1)..(x + 2).min(width) {
-                (0..3).for_each(|c| largest[c] = largest[c].max(image[row * width + column][c]));
+        let (rows, columns) = (y.saturating_sub(1)..(y + 2).min(height), x.saturating_sub(1)..(x + 2).min(width));
+        let others = (rows.len() * columns.len() - 1) as f64;
+        let mut sum = image[pixel].map(|v| if others > 0.0 { -v } else { v });
+        for row in rows {
+            for column in columns.clone() {
+                (0..3).for_each(|c| sum[c] += if others > 0.0 { image[row * width + column][c] } else { 0.0 });
             }
         }
-        largest
+        sum.map(|v| v / others.max(1.0))
     }
 }
 
@@ -252,20 +248,23 @@ mod tests {
         assert!(film.camera_mut()[0].add_sample(0, [1.0; 3]));
         assert_eq!(film.estimated_relative_mse(), None);
         film.camera_mut()[0].add_sample(1, [3.0; 3]);
-        // Mean 2, of which both have found 1; variance of the mean (3 − 1)² / 4 = 1, relative to 1 + 0.01 · 4.
-        assert!((film.estimated_relative_mse().unwrap() - 1.0 / 1.04).abs() < 1e-12);
+        // Mean 2; variance of the mean (3 − 1)² / 4 = 1, relative to 4 + 0.01 · 4.
+        assert!((film.estimated_relative_mse().unwrap() - 1.0 / 4.04).abs() < 1e-12);
         assert_eq!(film.standard_error(0), [1.0; 3]);
     }
 
     /// A pixel may stand out by chance, and is not to make its own error look small then; a highlight that both replicates
-    /// have found nearby is one.
+    /// have found is one.
     #[test]
     fn a_spike_does_not_hide_its_error() {
-        let estimate = |pixels: &[[f64; 2]]| film_of(pixels).estimated_relative_mse().unwrap();
+        let estimate =
+            |spike: [f64; 2]| film_of(&[[1.0; 2], [1.0; 2], spike, [1.0; 2], [1.0; 2]]).estimated_relative_mse();
         // Mean 20.8; variance of the spike 100², relative to 1 + 0.01 · 20.8².
         let expected = 1e4 / (1.0 + 0.01 * 20.8 * 20.8) / 5.0;
-        assert!((estimate(&[[1.0; 2], [1.0; 2], [0.0, 200.0], [1.0; 2], [1.0; 2]]) / expected - 1.0).abs() < 1e-12);
-        assert!(estimate(&[[1.0; 2], [120.0, 130.0], [0.0, 200.0], [1.0; 2], [1.0; 2]]) < 0.3);
+        assert!((estimate([0.0, 200.0]).unwrap() / expected - 1.0).abs() < 1e-12);
+        // Variance 10², relative to 90² + 0.01 · 20.8².
+        let expected = 1e2 / (90.0 * 90.0 + 0.01 * 20.8 * 20.8) / 5.0;
+        assert!((estimate([90.0, 110.0]).unwrap() / expected - 1.0).abs() < 1e-12);
     }
 
     /// Equal pixels share the uncertainty; one that holds all of the error leaves a single degree of freedom.
