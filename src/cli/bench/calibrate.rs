@@ -26,6 +26,9 @@ pub struct Calibration {
 
 /// Renders every scene to the target error with many seeds.
 pub fn calibrate(session: &Session) -> Result<Vec<Calibration>> {
+    if let Some(other) = session.variants.iter().find(|variant| matches!(variant.kind, Kind::Command { .. })) {
+        return Err(usage(format!("--calibrate: {} makes no claims; expected no --against", other.name)));
+    }
     let mut calibrations = Vec::new();
     for path in &session.args.scenes {
         let work = session.pool.install(|| Work::new(path, session.args.resolution.as_deref()))?;
@@ -42,9 +45,6 @@ pub fn calibrate(session: &Session) -> Result<Vec<Calibration>> {
 }
 
 fn of_variant(session: &Session, work: &Work, variant: &Variant, reference: &Reference) -> Result<Calibration> {
-    let Kind::Abbe { .. } = variant.kind else {
-        return Err(usage(format!("--calibrate: {} makes no claims; expected no --against", variant.name)));
-    };
     let target_error = Some(session.args.target.unwrap_or(TARGET));
     let plain = variant.kind.settings(work, MOST_SAMPLES, 0);
     if let Some(what) = blind_spot(&work.compiled.scene, plain.integrator) {

@@ -26,7 +26,7 @@ pub struct BenchArgs {
     /// Scene files
     #[arg(required = true, value_name = "SCENE")]
     pub scenes: Vec<PathBuf>,
-    /// Compare values of a setting, such as integrator=hero,auto or max-depth=8,16; repeated: all combinations
+    /// Compare values of a setting, such as integrator=hero,auto, max-depth=8,16 or adaptive=on,off; repeated: all combinations
     #[arg(long, value_name = "KEY=A,B")]
     pub vary: Vec<String>,
     /// Compare another renderer: a shell command in which {spp}, {out} (an EXR to write), {seed}, {width}, {height} and
