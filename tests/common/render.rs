@@ -18,7 +18,11 @@ pub fn compile_json(scene: &Value) -> Compiled {
 
 /// Renders a scene, and insists that no sample was lost and no path lost count of what it is inside of.
 pub fn render_json(scene: &Value) -> (Film, Statistics) {
-    let compiled = compile_json(scene);
+    render_compiled(&compile_json(scene))
+}
+
+/// The same for a compiled scene.
+pub fn render_compiled(compiled: &Compiled) -> (Film, Statistics) {
     let features = SceneFeatures { dispersion: false, interiors: false };
     let Rendering { film, statistics, .. } =
         abbe::render::render(&compiled.scene, &compiled.render, &compiled.film, features, &mut |_| true);
