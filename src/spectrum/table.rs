@@ -1,6 +1,7 @@
 //! Spectra compiled for rendering.
 
 use super::{SampledSpectrum, Wavelengths};
+use wide::f32x8;
 
 /// A piecewise-linear function of wavelength with fast look-up; constant beyond its ends.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,11 +101,22 @@ impl SpectrumTable {
 
     /// The values at a path's wavelengths.
     pub fn sample(&self, wavelengths: &Wavelengths) -> SampledSpectrum {
-        match self.0 {
-            Layout::Constant(value) => SampledSpectrum::splat(value),
-            _ => SampledSpectrum::new(wavelengths.lambda_nm.map(|lambda_nm| self.eval(lambda_nm))),
+        match &self.0 {
+            Layout::Constant(value) => SampledSpectrum::splat(*value),
+            Layout::Uniform { first_nm, pieces } => sample_uniform(*first_nm, pieces, wavelengths),
+            Layout::Uneven { .. } => SampledSpectrum::new(wavelengths.lambda_nm.map(|lambda_nm| self.eval(lambda_nm))),
         }
     }
+}
+
+/// [`SpectrumTable::eval`] of a [`Layout::Uniform`] in all lanes.
+fn sample_uniform(first_nm: f32, pieces: &[[f32; 2]], wavelengths: &Wavelengths) -> SampledSpectrum {
+    let last = pieces.len() - 1;
+    let cell = (f32x8::new(wavelengths.lambda_nm) - f32x8::splat(first_nm)).fast_max(f32x8::ZERO);
+    let whole = cell.fast_min(f32x8::splat(last as f32)).trunc();
+    let found = whole.fast_trunc_int().to_array().map(|k| pieces[(k as usize).min(last)]);
+    let (value, slope) = (f32x8::new(found.map(|piece| piece[0])), f32x8::new(found.map(|piece| piece[1])));
+    SampledSpectrum::from((value + slope * (cell - whole)).fast_max(f32x8::ZERO))
 }
 
 #[cfg(test)]
@@ -124,6 +136,20 @@ mod tests {
         assert!((table.eval(500.255) - 5.0).abs() < 0.02);
         assert_eq!(SpectrumTable::constant(0.25).eval(555.0), 0.25);
         assert_eq!(SpectrumTable::new(&[400.0, 500.0], &[2.0, 2.0]), SpectrumTable::constant(2.0));
+    }
+
+    /// All lanes at once give what each alone gives, to the bit.
+    #[test]
+    fn lanes_agree_with_single_wavelengths() {
+        let uniform = SpectrumTable::new(&[400.0, 405.0, 410.0, 700.0], &[1.0, 3.0, 0.0, 2.9]);
+        let uneven = SpectrumTable::new(&[400.0, 400.5, 700.0], &[1.0, 3.0, 2.0]);
+        for i in 0..500 {
+            let lambda_nm = std::array::from_fn(|lane| 360.0 + (i * 8 + lane) as f32 * 0.117_531);
+            let wavelengths = Wavelengths { lambda_nm, pdf: [1.0; 8] };
+            for table in [&uniform, &uneven] {
+                assert_eq!(table.sample(&wavelengths).lanes(), lambda_nm.map(|l| table.eval(l)));
+            }
+        }
     }
 
     #[test]

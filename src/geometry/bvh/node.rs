@@ -218,8 +218,9 @@ impl Packet {
     /// Distance to the plane of one triangle, if that is ahead. A ray that leaves the triangle starts beside it by the
     /// rounding of f32, which f64 tells apart at any angle.
     pub fn exact_distance(&self, lane: usize, ray: &Ray) -> Option<f32> {
-        let vertex =
-            |v: usize| DVec3::from_array(self.vertices[v].each_ref().map(|axis| f64::from(axis.to_array()[lane])));
+        let vertex = |v: usize| {
+            DVec3::from_array(self.vertices[v].each_ref().map(|axis| f64::from(axis.as_array()[lane % PACKET])))
+        };
         let a = vertex(0);
         let normal = (vertex(1) - a).cross(vertex(2) - a);
         let t = normal.dot(a - ray.origin.as_dvec3()) / normal.dot(ray.direction.as_dvec3());
