@@ -75,13 +75,10 @@ impl TriangleHit {
             return None;
         }
         let barycentrics = [u / determinant, v / determinant, w / determinant];
-        let mut point = Vec3::ZERO;
-        let mut size = Vec3::ZERO;
-        for (weight, vertex) in barycentrics.into_iter().zip(vertices) {
-            point += vertex * weight;
-            size += (vertex * weight).abs();
-        }
-        Some(Self { barycentrics, point, error: size * gamma(7) })
+        let [wa, wb, wc] = barycentrics;
+        let parts = [vertices[0] * wa, vertices[1] * wb, vertices[2] * wc];
+        let size = parts[0].abs() + parts[1].abs() + parts[2].abs();
+        Some(Self { barycentrics, point: parts[0] + parts[1] + parts[2], error: size * gamma(7) })
     }
 }
 

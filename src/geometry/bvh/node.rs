@@ -219,7 +219,8 @@ impl Packet {
     /// rounding of f32, which f64 tells apart at any angle.
     pub fn exact_distance(&self, lane: usize, ray: &Ray) -> Option<f32> {
         let vertex = |v: usize| {
-            DVec3::from_array(self.vertices[v].each_ref().map(|axis| f64::from(axis.as_array()[lane % PACKET])))
+            let [x, y, z] = &self.vertices[v];
+            Vec3::new(x.as_array()[lane], y.as_array()[lane], z.as_array()[lane]).as_dvec3()
         };
         let a = vertex(0);
         let normal = (vertex(1) - a).cross(vertex(2) - a);
