@@ -27,7 +27,7 @@ pub fn radiance<const DISPERSION: bool, const INTERIORS: bool>(
 ) -> SampledSpectrum {
     let camera_indices = if INTERIORS { Some(medium_indices(walk)) } else { None };
     let context = Context { techniques, max_depth, camera_indices };
-    follow::<DISPERSION, INTERIORS>(walk, &context, Origin::Delta, Seen::Nothing)
+    follow::<DISPERSION, INTERIORS>(walk, &context, Origin::Delta, Seen::Nothing, None)
 }
 
 /// What stays the same along a path.
@@ -39,11 +39,16 @@ struct Context<'a> {
 }
 
 /// Radiance that arrives along the rest of a path.
+///
+/// The eight numbers of a vertex: 0 and 1 draw the direction that leaves it, 2 and 3 (`towards_light`) the point on a light
+/// that the next vertex asks, so that the two, whose effects multiply, are well spread jointly; 4 and 5 are for the point on
+/// a light that the first vertex asks, 6 for roulette, 7 for the choice of reflection or refraction.
 fn follow<const DISPERSION: bool, const INTERIORS: bool>(
     walk: &mut Walk,
     context: &Context,
     mut origin: Origin,
     mut seen: Seen,
+    mut towards_light: Option<[f32; 2]>,
 ) -> SampledSpectrum {
     let scene = walk.scene;
     let mut radiance = SampledSpectrum::ZERO;
@@ -65,7 +70,7 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
         let u = walk.random();
         if let Material::Dielectric { medium } = object.material {
             let lanes = walk.lanes;
-            let crossing = walk.meet_dielectric::<DISPERSION>(&surface, medium, u[2]);
+            let crossing = walk.meet_dielectric::<DISPERSION>(&surface, medium, u[7]);
             if walk.parting == Parting::Terminate && walk.lanes != lanes {
                 // The baseline keeps one lane of all that it has gathered before, too.
                 radiance = radiance.only(walk.hero) * walk.lanes_at_start();
@@ -77,7 +82,8 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
                 Crossing::Parted(ways) => {
                     for way in 0..ways {
                         if walk.set_out(way) {
-                            radiance += follow::<DISPERSION, INTERIORS>(walk, context, Origin::Delta, seen);
+                            let numbers = Some([u[2], u[3]]);
+                            radiance += follow::<DISPERSION, INTERIORS>(walk, context, Origin::Delta, seen, numbers);
                         }
                     }
                     break;
@@ -95,7 +101,8 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
                     _ => seen,
                 };
                 let receiver = Receiver { surface: &surface, bsdf: &bsdf, frame: &frame, wo };
-                let direct = direct_light::<INTERIORS>(walk, context.techniques, before, receiver, u);
+                let numbers = towards_light.unwrap_or([u[4], u[5]]);
+                let direct = direct_light::<INTERIORS>(walk, context.techniques, before, receiver, numbers);
                 radiance += direct * walk.throughput * radiance_ratio::<INTERIORS>(walk, &context.camera_indices);
                 if !walk.diffused() {
                     break;
@@ -107,9 +114,10 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
                 Some(pdf) => Origin::Scattered { from: surface.point, pdf },
             };
         }
-        if !walk.survives(u[3]) {
+        if !walk.survives(u[6]) {
             break;
         }
+        towards_light = Some([u[2], u[3]]);
     }
     radiance
 }
@@ -214,16 +222,17 @@ fn direct_light<const INTERIORS: bool>(
     techniques: &Techniques,
     seen: Seen,
     receiver: Receiver,
-    u: [f32; 8],
+    u: [f32; 2],
 ) -> SampledSpectrum {
     let scene = walk.scene;
     let mut radiance = SampledSpectrum::ZERO;
-    if let Some(draw) = scene.light_table.sample(u[4]) {
-        radiance += light_from::<INTERIORS>(walk, receiver, &scene.lights[draw.index], draw.probability, [u[5], u[6]]);
+    if let Some(draw) = scene.light_table.sample(u[0]) {
+        let light = &scene.lights[draw.index];
+        radiance += light_from::<INTERIORS>(walk, receiver, light, draw.probability, [draw.rest, u[1]]);
     }
     for &light in &scene.local_lights {
         if techniques.camera_owns_local_light(light, seen) {
-            radiance += light_from::<INTERIORS>(walk, receiver, &scene.lights[light as usize], 1.0, [u[5], u[6]]);
+            radiance += light_from::<INTERIORS>(walk, receiver, &scene.lights[light as usize], 1.0, u);
         }
     }
     radiance

@@ -11,8 +11,9 @@ use glam::Vec3;
 
 /// Throughput below which a path ends, by a rule instead of by chance: 2⁻¹⁰⁰.
 const NEGLIGIBLE: f32 = 1.0 / (1u128 << 100) as f32;
-/// Scattering events before Russian roulette.
-const ROULETTE_DEPTH: u32 = 4;
+/// Throughput below which Russian roulette sets in: it brings what survives up to this. By experiment, relMSE × rays is near
+/// its least from 1/8 to 1/4, in scenes of diffuse surfaces and of glass, and a quarter more with 1.
+const ROULETTE_THROUGHPUT: f32 = 0.25;
 
 /// Wavelengths of a path of the baseline `hero` \[PBRT4\].
 pub const BASELINE_LANES: usize = 4;
@@ -315,21 +316,18 @@ impl<'a> Walk<'a> {
         if self.throughput.max() < NEGLIGIBLE {
             return false;
         }
-        if self.depth < ROULETTE_DEPTH {
-            return true;
-        }
         // The mean over lanes counts a lane that stands for all like all that share the ray. One of a bundle is followed as
         // often as it would be if it were alone.
         let carried = match self.lanes {
             Lanes::Shared | Lanes::Only(_) => self.throughput.mean(),
             Lanes::Bundled(lane) => self.throughput.lane(lane),
         };
-        let survival = carried.min(1.0);
-        if u >= survival {
-            return false;
+        let survival = carried * (1.0 / ROULETTE_THROUGHPUT);
+        if survival >= 1.0 {
+            return true;
         }
         self.throughput *= 1.0 / survival;
-        true
+        u < survival
     }
 }
 

@@ -196,7 +196,8 @@ fn area_light(object: &ObjectDescription, source: &Source, geometry: &Geometry) 
             let v = if transform.matrix3.determinant() < 0.0 { -v } else { v };
             let area = std::f64::consts::PI * u.cross(v).length();
             let center = placed.translation.as_vec3();
-            (AreaShape::Ellipse { center, u: u.as_vec3(), v: v.as_vec3() }, area as f32)
+            let normal = u.cross(v).normalize().as_vec3();
+            (AreaShape::Ellipse { center, u: u.as_vec3(), v: v.as_vec3(), normal }, area as f32)
         }
         Source::Analytic(..) => (AreaShape::Unsampled, 0.0),
     };
@@ -209,7 +210,8 @@ fn triangle_light(shape: &ShapeDescription, range: std::ops::Range<u32>, geometr
         let [[o, a, c], [_, d, e]] = [corners(range.start), corners(range.start + 1)];
         // Triangles (0 1 2), (0 2 3), or with the last two swapped after a mirroring.
         let (u, v) = if c == d { (a - o, e - o) } else { (d - o, c - o) };
-        return (AreaShape::Parallelogram { origin: o, u, v }, u.cross(v).length());
+        let normal = u.as_dvec3().cross(v.as_dvec3()).normalize().as_vec3();
+        return (AreaShape::Parallelogram { origin: o, u, v, normal }, u.cross(v).length());
     }
     let areas: Vec<f64> = range
         .clone()
