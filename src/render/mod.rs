@@ -10,6 +10,7 @@ mod path;
 mod photons;
 mod pilot;
 mod plan;
+mod scatter;
 mod techniques;
 mod walk;
 mod workspace;
@@ -17,12 +18,10 @@ mod workspace;
 pub use plan::Decisions;
 pub use workspace::Counters;
 
-use crate::bsdf::{Bsdf, BsdfSample};
 use crate::color::Observer;
 use crate::film::{CAMERA_REPLICATES, Film, LIGHT_REPLICATES, PixelSums, Sensor, Splat};
-use crate::geometry::Frame;
 use crate::sampling::{DIMENSIONS, Sobol, mix};
-use crate::scene::{FilmSettings, RenderSettings, Scene, SceneFeatures, Surface};
+use crate::scene::{FilmSettings, RenderSettings, Scene, SceneFeatures};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, LANES, SampledSpectrum, Wavelengths};
 use allocation::{Allocation, Spent, segment_end};
 use light::{LightTracer, Splatter};
@@ -415,13 +414,4 @@ fn standard_sensor() -> Sensor {
     let matching: Vec<[f64; 3]> =
         (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(|l| observer.eval(f64::from(l)).to_array()).collect();
     Sensor::new(LAMBDA_MIN_NM, &matching)
-}
-
-/// Scatters a path at an opaque surface.
-fn bounce(walk: &mut Walk, surface: &Surface, bsdf: &Bsdf, frame: &Frame, u: [f32; 2]) -> Option<BsdfSample> {
-    let sample = bsdf.sample(frame, -walk.ray.direction, u)?;
-    walk.throughput *= sample.weight;
-    walk.ray = surface.spawn(sample.wi);
-    walk.depth += 1;
-    Some(sample)
 }
