@@ -105,7 +105,7 @@ mod tests {
     fn over_facets(alpha: f32, f: impl Fn(DVec3) -> f64) -> f64 {
         let (s, t) = normal().any_orthonormal_pair();
         let alpha = f64::from(alpha);
-        let (n, turns) = (4000, 64);
+        let (n, turns) = (1000, 32);
         let mut sum = 0.0;
         for i in 0..n {
             let x = (f64::from(i) + 0.5) / f64::from(n);
@@ -129,10 +129,10 @@ mod tests {
         for alpha in ALPHAS {
             let ggx = Ggx::new(alpha);
             let area = over_facets(alpha, |m| ggx.density(normal(), m) * m.dot(normal()));
-            assert!((area - 1.0).abs() < 1e-5, "{alpha}: {area}");
+            assert!((area - 1.0).abs() < 1e-4, "{alpha}: {area}");
             for wo in directions() {
                 let seen = over_facets(alpha, |m| ggx.visible_density(normal(), wo, m));
-                assert!((seen - 1.0).abs() < 1e-3, "{alpha} {wo}: {seen}");
+                assert!((seen - 1.0).abs() < 2e-3, "{alpha} {wo}: {seen}");
             }
         }
     }
@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn samples_have_the_visible_density() {
         let sobol = Sobol::new(3);
-        let n = 1 << 15;
+        let n = 1 << 12;
         for alpha in ALPHAS {
             let ggx = Ggx::new(alpha);
             for wo in directions() {
@@ -155,7 +155,7 @@ mod tests {
                     let sampled = (0..n).map(|i| sobol.group(i, 0));
                     let sampled = sampled.map(|u| moment(ggx.sample_visible(normal(), wo, [u[0], u[1]]), k));
                     let mean = sampled.sum::<f64>() / n as f64;
-                    assert!((mean - exact).abs() < 2e-3, "{alpha} {wo} {k}: {mean} {exact}");
+                    assert!((mean - exact).abs() < 5e-3, "{alpha} {wo} {k}: {mean} {exact}");
                 }
             }
         }
@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn masking_of_both_sides() {
         for (a, b) in [(0.0, 0.0), (0.3, 2.0), (5.0, 0.1), (40.0, 40.0), (1e6, 0.5)] {
-            let n = 100_000;
+            let n = 20_000;
             // B(1 + a, 1 + b) = ∫ tᵃ (1 − t)ᵇ dt; t = 1 − x² keeps the peak in sight for large a.
             let integral = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n)).map(|x| {
                 let x = x * x;
@@ -174,7 +174,7 @@ mod tests {
             let integral = integral.sum::<f64>() / f64::from(n);
             let share = lit_of_visible(a, b, true);
             if a < 1e3 {
-                assert!((share / (1.0 + a) - integral).abs() < 1e-5 * integral, "{a} {b}: {share} {integral}");
+                assert!((share / (1.0 + a) - integral).abs() < 1e-4 * integral, "{a} {b}: {share} {integral}");
             }
             for crosses in [false, true] {
                 let (there, back) = (lit_of_visible(a, b, crosses), lit_of_visible(b, a, crosses));

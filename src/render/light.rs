@@ -55,7 +55,10 @@ pub enum First {
     /// Something specular.
     Specular,
     /// A rough surface that focuses.
-    Glossy,
+    Glossy {
+        /// Whether a matte surface has followed.
+        then_matte: bool,
+    },
     /// Another surface.
     Diffuse,
 }
@@ -155,10 +158,14 @@ impl LightTracer<'_> {
                     if self.owns(start, &arrival) {
                         collector.arrive::<INTERIORS>(walk, start, arrival);
                     }
-                    if first == First::Nothing {
-                        let glossy = bsdf.is_rough() && object.material.focuses();
-                        first = if glossy { First::Glossy } else { First::Diffuse };
-                    }
+                    first = match first {
+                        First::Nothing if bsdf.is_rough() && object.material.focuses() => {
+                            First::Glossy { then_matte: false }
+                        }
+                        First::Nothing => First::Diffuse,
+                        First::Glossy { .. } if !bsdf.is_rough() => First::Glossy { then_matte: true },
+                        _ => first,
+                    };
                     // What is lit directly belongs to camera paths, and all that follows from it.
                     let local = self.scene.lights[start.light as usize].is_local();
                     if self.caustics_only && first == First::Diffuse && !local {
@@ -199,7 +206,7 @@ impl LightTracer<'_> {
             || match arrival.first {
                 First::Nothing => false,
                 First::Specular => true,
-                First::Glossy => local || !arrival.bsdf.is_rough(),
+                First::Glossy { then_matte } => local || then_matte || !arrival.bsdf.is_rough(),
                 First::Diffuse => local,
             }
     }

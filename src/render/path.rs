@@ -97,6 +97,9 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
                     Seen::Nothing if bsdf.is_rough() => Seen::Nothing,
                     Seen::Nothing if depth == 0 => Seen::Directly(camera_density(scene, &surface, wo)),
                     Seen::Nothing => Seen::ThroughSpecular,
+                    Seen::RoughDirectly { density, .. } if !bsdf.is_rough() => {
+                        Seen::RoughDirectly { density, then_matte: true }
+                    }
                     _ => seen,
                 };
                 let receiver = Receiver { surface: &surface, bsdf: &bsdf, frame: &frame, wo, glossy };
@@ -152,11 +155,11 @@ fn seen_rough(
     if depth > 0 {
         return Seen::RoughThroughSpecular;
     }
-    if techniques.guide().is_none() {
-        return Seen::RoughDirectly(SampledSpectrum::ZERO);
-    }
-    let wi = walk.ray.direction;
-    Seen::RoughDirectly(rough_camera_density(walk.scene, surface, bsdf, frame, (wo, wi)))
+    let density = match techniques.guide() {
+        None => SampledSpectrum::ZERO,
+        Some(_) => rough_camera_density(walk.scene, surface, bsdf, frame, (wo, walk.ray.direction)),
+    };
+    Seen::RoughDirectly { density, then_matte: false }
 }
 
 /// Density per unit of area and projected solid angle with which each lane's camera paths, all pixels taken together, see

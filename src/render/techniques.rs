@@ -15,10 +15,11 @@
 //! | E S+ M X* D L, local light | merging; without it camera paths |
 //! | E M X* r L: a glossy caustic on a matte surface seen directly | light paths |
 //! | E S+ M X* r L: the same through glass or in a mirror | merging; without it camera paths |
+//! | E R X* M X* r L: the same through or in something rough | light paths |
 //! | E X* D L, light with extent | camera paths: scattering into it and next-event estimation, balanced |
 //! | E X* D L, light without | camera paths: next-event estimation |
 //!
-//! So a rough surface that the camera looks at, or through, is lit by camera paths: their lobes are sampled from there, and
+//! So a rough surface that the camera looks at, or through, is lit by camera paths: its lobe is sampled from there, and
 //! lights are asked on both sides of it. What it casts on matte surfaces is for paths from the light.
 
 use super::guide::Guide;
@@ -57,9 +58,14 @@ pub enum Seen {
     Directly(f32),
     /// Matte, seen through or in something specular.
     ThroughSpecular,
-    /// Rough, seen without anything specular in between: camera paths leave it as this one does with this density per unit
-    /// of area and projected solid angle, lane by lane.
-    RoughDirectly(SampledSpectrum),
+    /// Rough, seen without anything specular in between.
+    RoughDirectly {
+        /// Density per unit of area and projected solid angle with which camera paths leave it as this one does, lane by
+        /// lane.
+        density: SampledSpectrum,
+        /// Whether a matte surface has followed.
+        then_matte: bool,
+    },
     /// Rough, seen through or in something specular.
     RoughThroughSpecular,
 }
@@ -98,7 +104,7 @@ impl Techniques {
             Seen::Directly(camera) => self
                 .light_path_density(scene, light, exit)
                 .map_or(1.0, |light| balance_heuristic(camera, light.matte())),
-            Seen::RoughDirectly(camera) => {
+            Seen::RoughDirectly { density: camera, .. } => {
                 return self.light_path_density(scene, light, exit).map_or(SampledSpectrum::ONE, |light| {
                     let camera = camera.lanes();
                     SampledSpectrum::from_fn(|lane| balance_heuristic(camera[lane], light.0))
@@ -114,7 +120,7 @@ impl Techniques {
     pub fn camera_owns_local_light(&self, light: u32, seen: Seen) -> bool {
         match seen {
             Seen::Nothing | Seen::RoughThroughSpecular => true,
-            Seen::Directly(_) | Seen::RoughDirectly(_) => !self.draws(light),
+            Seen::Directly(_) | Seen::RoughDirectly { .. } => !self.draws(light),
             Seen::ThroughSpecular => !(self.merges() && self.draws(light)),
         }
     }
@@ -123,8 +129,8 @@ impl Techniques {
     /// have before it.
     pub fn camera_owns_glossy_caustic(&self, light: u32, seen: Seen) -> bool {
         match seen {
-            Seen::Nothing | Seen::RoughDirectly(_) | Seen::RoughThroughSpecular => true,
-            Seen::Directly(_) => !self.draws(light),
+            Seen::Nothing | Seen::RoughDirectly { then_matte: false, .. } | Seen::RoughThroughSpecular => true,
+            Seen::Directly(_) | Seen::RoughDirectly { then_matte: true, .. } => !self.draws(light),
             Seen::ThroughSpecular => !(self.merges() && self.draws(light)),
         }
     }
