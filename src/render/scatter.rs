@@ -213,3 +213,95 @@ impl Walk<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::{path, techniques::Techniques, workspace::Workspace};
+    use crate::sampling::{Sobol, mix};
+    use crate::scene::Compiled;
+    use crate::spectrum::LANES;
+    use std::path::Path;
+
+    /// A prism of flint in front of a lamp and a coloured wall, rough by `alpha`.
+    fn prism(alpha: f32) -> Compiled {
+        let text = format!(
+            r#"{{
+            "camera": {{ "type": "perspective", "from": [0.0, 0.02, 0.5], "to": [0, 0, 0], "fov_degrees": 8 }},
+            "film": {{ "width": 16, "height": 16 }},
+            "materials": {{
+                "flint": {{ "type": "dielectric", "ior": {{ "glass": "N-SF66", "extrapolate": "hold" }}, "roughness": {alpha} }},
+                "wall": {{ "type": "diffuse", "reflectance": {{ "wavelengths_nm": [400, 700], "values": [0.2, 0.8] }} }}
+            }},
+            "objects": [
+                {{ "shape": {{ "type": "prism", "apex_degrees": 40, "side": 0.1, "length": 0.1 }}, "material": "flint" }},
+                {{ "shape": {{ "type": "quad", "origin": [-1, -1, -1], "u": [2, 0, 0], "v": [0, 2, 0] }}, "material": "wall" }},
+                {{ "shape": {{ "type": "quad", "origin": [-0.3, -0.1, -0.6], "u": [0.25, 0, 0], "v": [0, 0.2, 0] }},
+                   "emission": {{ "illuminant": "D65" }} }}
+            ]
+        }}"#
+        );
+        let parsed = crate::scene::description::parse_str(&text, Path::new("prism.json")).unwrap();
+        crate::scene::compile(&parsed.description).unwrap()
+    }
+
+    /// Ways of treating lanes.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    enum Treatment {
+        /// One is followed from the start and stands for all.
+        Single,
+        /// They stay together wherever a rough surface lets them.
+        Together,
+        /// They may part at facets.
+        Parting,
+    }
+
+    /// Mean and variance of what paths bring, all lanes together, and its spread over the lanes.
+    fn moments(compiled: &Compiled, treatment: Treatment, n: u64) -> [f64; 2] {
+        let scene = &compiled.scene;
+        let mut workspace = Workspace::new(scene);
+        let (mut sum, mut squares) = (0.0, 0.0);
+        for i in 0..n {
+            // Independent numbers: each path has a sequence of its own.
+            let sobol = Sobol::new(mix(i ^ (treatment as u64) << 40));
+            let u = sobol.group(0, 0);
+            let ray = scene.camera.ray([16.0 * u[0], 16.0 * u[1]], [0.5; 2]);
+            workspace.spectra.begin(scene.wavelengths.sample(u[2]));
+            workspace.interiors.reset(&[]);
+            let hero = (u[5] * LANES as f32) as usize;
+            let ways = if treatment == Treatment::Parting { 8 } else { 1 };
+            let mut walk = Walk::start(scene, &mut workspace, ray, (hero, Parting::Ways(ways)), (sobol, 0));
+            if treatment == Treatment::Single {
+                walk.leave_to_hero();
+            }
+            let radiance = path::radiance::<true, true>(&mut walk, &Techniques::Path, 12);
+            // Lanes count unequally, so that what they lose to each other shows.
+            let value: f64 = radiance.lanes().iter().zip(1..).map(|(r, k)| f64::from(*r) * f64::from(k)).sum();
+            sum += value;
+            squares += value * value;
+        }
+        let mean = sum / n as f64;
+        [mean, squares / n as f64 - mean * mean]
+    }
+
+    /// Lanes that share rays through rough glass bring what each brings alone, with less variance: less by far where lobes
+    /// overlap, and no more where they do not.
+    #[test]
+    fn lanes_together_and_alone() {
+        let n = 30_000;
+        for (alpha, gain) in [(0.4, 1.5), (0.1, 1.3), (0.02, 1.0), (0.002, 0.9)] {
+            let compiled = prism(alpha);
+            let [single, single_variance] = moments(&compiled, Treatment::Single, n);
+            for treatment in [Treatment::Together, Treatment::Parting] {
+                let [mean, variance] = moments(&compiled, treatment, n);
+                let sigma = ((variance + single_variance) / n as f64).sqrt();
+                let ratio = single_variance / variance;
+                println!(
+                    "α = {alpha}, {treatment:?}: {mean:.4} against {single:.4} ± {sigma:.4}; variance {ratio:.2} times less"
+                );
+                assert!((mean - single).abs() < 4.0 * sigma, "{alpha} {treatment:?}: {mean} {single} ± {sigma}");
+                assert!(ratio > gain, "{alpha} {treatment:?}: a variance of {variance}, alone {single_variance}");
+            }
+        }
+    }
+}
