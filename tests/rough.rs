@@ -87,11 +87,12 @@ fn energy(n: u64, seed: u64, sample: impl Fn([f32; 8]) -> f32) -> f64 {
     (0..n).map(|i| f64::from(sample(sobol.group(i, 0)))).sum::<f64>() / n as f64
 }
 
-/// A furnace: what comes in goes out, but for what meets a second facet, which single scattering loses. Each lane, from
-/// either side, alone or led by another.
+/// A furnace: what comes in goes out, but for what meets a second facet, which single scattering loses: of dense flint up to
+/// 1.9 % at α = 0.03, 11 % at 0.1, 20 % at 0.3, 41 % at 0.6, 69 % at 1, at the worst angle and from the worse side. Each
+/// lane, from either side, alone or led by another.
 #[test]
 fn furnace() {
-    let limits = [1e-4, 2e-3, 0.012, 0.09, 0.22, 0.42];
+    let limits = [1e-4, 0.022, 0.12, 0.21, 0.43, 0.71];
     for (alpha, limit) in ALPHAS.into_iter().zip(limits) {
         let mut worst: f64 = 0.0;
         for degrees in [0.0, 30.0, 60.0, 80.0] {
@@ -164,20 +165,16 @@ fn furnace_where_lanes_part() {
     }
 }
 
-/// Metals lose what glass does in reflection; a perfect one would give all of it back.
+/// Metals that reflect all lose what meets a second facet, and nothing else. At α = 1 facets are those of a hemisphere, D = 1 / π,
+/// Λ = (1 / cos θ − 1) / 2, and what falls straight down returns as ∫ D / (4 (1 + Λ(θ))) dω = 1 − ln 2.
 #[test]
 fn metals() {
-    for (alpha, limit) in ALPHAS.into_iter().zip([1e-4, 2e-3, 0.01, 0.07, 0.25, 0.5]) {
+    let losses = [1e-4, 0.02, 0.11, 0.16, 0.42, 0.7];
+    for (alpha, limit) in ALPHAS.into_iter().zip(losses) {
         for degrees in [0.0, 45.0, 80.0] {
             let wo = direction(degrees, 0.5);
-            let perfect = RoughConductor {
-                facets: Conductor {
-                    eta: SampledSpectrum::splat(1e-3),
-                    k: SampledSpectrum::splat(1e3),
-                    ..metal(0.1).facets
-                },
-                ggx: Ggx::new(alpha),
-            };
+            let (eta, k) = (SampledSpectrum::splat(1e-3), SampledSpectrum::splat(1e3));
+            let perfect = RoughConductor { facets: Conductor { eta, k, ..metal(0.1).facets }, ggx: Ggx::new(alpha) };
             let e = energy(8192, 3, |u| {
                 let Some(sample) = perfect.sample(&frame(), wo, [u[0], u[1]]) else { return 0.0 };
                 let pdf = perfect.pdf(&frame(), wo, sample.wi);
@@ -188,6 +185,9 @@ fn metals() {
                 sample.weight.lane(0)
             });
             assert!(e < 1.0 + 1e-6 && e > 1.0 - limit, "{alpha} {degrees}: {e}");
+            if alpha == 1.0 && degrees == 0.0 {
+                assert!((e - (1.0 - std::f64::consts::LN_2)).abs() < 1e-5, "{e}");
+            }
         }
         assert!(Bsdf::RoughConductor(metal(alpha)).is_rough());
     }
@@ -309,20 +309,18 @@ fn nested_rough_media() {
     scene["materials"]["rough"]["absorption_per_m"] = json!({ "wavelengths_nm": [400, 700], "values": [6, 1] });
     scene["materials"]["rough"]["priority"] = json!(1);
     scene["materials"]["liquid"] = json!({ "type": "dielectric", "ior": { "nd": 1.36, "vd": 50 } });
-    scene["materials"]["drop"] = json!({ "type": "dielectric", "ior": 1.2, "priority": 2, "roughness": 0.2 });
+    scene["materials"]["drop"] = json!({ "type": "dielectric", "ior": 1.05, "priority": 2, "roughness": 0.4 });
     let objects = scene["objects"].as_array_mut().unwrap();
     objects.push(json!({ "shape": { "type": "sphere", "center": [0, 0, 0], "radius": 3 }, "material": "liquid" }));
     objects
         .push(json!({ "shape": { "type": "sphere", "center": [0.05, 0.2, 0.0], "radius": 0.08 }, "material": "drop" }));
-    agree("nested", &scene, [96, 256, 48]);
+    agree("nested", &scene, [96, 512, 48]);
 }
 
 /// As rough as nothing is as smooth: what is seen through a ball and in it.
 #[test]
 fn the_smooth_limit() {
-    let background = json!({ "shape": { "type": "sphere", "center": [0.3, 0.5, 0.2], "radius": 0.08 },
-                             "emission": { "illuminant": "D65", "scale": 3 } });
-    let smooth = with(&scene(frosted(0.0), background), "/camera/to", json!([0.0, 0.17, 0.0]));
+    let smooth = with(&scene(frosted(0.0), lamp()), "/camera/to", json!([0.0, 0.17, 0.0]));
     let a = estimates(&smooth, "path", 64, 1);
     for alpha in [1e-4, 1e-3] {
         let rough = with(&smooth, "/materials/rough/roughness", alpha);
