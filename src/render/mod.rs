@@ -13,6 +13,7 @@ mod photons;
 mod pilot;
 mod plan;
 mod profile;
+mod scatter;
 mod schedule;
 mod stopping;
 mod techniques;
@@ -23,11 +24,9 @@ pub use plan::{Decisions, blind_spot};
 pub use profile::{Phase, Profile, TimedRays};
 pub use workspace::Counters;
 
-use crate::bsdf::{Bsdf, BsdfSample};
 use crate::color::Observer;
 use crate::film::{Film, Sensor};
-use crate::geometry::Frame;
-use crate::scene::{FilmSettings, RenderSettings, Scene, SceneFeatures, Surface};
+use crate::scene::{FilmSettings, RenderSettings, Scene, SceneFeatures};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM};
 use adaptive::Adaptive;
 use allocation::{Allocation, Spent};
@@ -37,7 +36,6 @@ use schedule::{Segment, Work, segment_end};
 use std::time::Instant;
 use stopping::{error_bound, next_look};
 use techniques::Techniques;
-use walk::Walk;
 
 /// A render and what is known of it.
 #[derive(Debug, Clone)]
@@ -340,13 +338,4 @@ fn standard_sensor() -> Sensor {
     let matching: Vec<[f64; 3]> =
         (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(|l| observer.eval(f64::from(l)).to_array()).collect();
     Sensor::new(LAMBDA_MIN_NM, &matching)
-}
-
-/// Scatters a path at an opaque surface.
-fn bounce(walk: &mut Walk, surface: &Surface, bsdf: &Bsdf, frame: &Frame, u: [f32; 2]) -> Option<BsdfSample> {
-    let sample = bsdf.sample(frame, -walk.ray.direction, u)?;
-    walk.throughput *= sample.weight;
-    walk.ray = surface.spawn(sample.wi);
-    walk.depth += 1;
-    Some(sample)
 }
