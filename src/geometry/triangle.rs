@@ -23,34 +23,30 @@ impl ShearedRay {
     /// The frame of a ray; `None` for a direction without length or with NaN.
     #[inline]
     pub fn new(ray: &Ray) -> Option<Self> {
-        let (d, size) = (ray.direction, ray.direction.abs());
-        let z = if size.x > size.y && size.x > size.z {
-            0
-        } else if size.y > size.z {
-            1
-        } else {
-            2
-        };
-        let rate = 1.0 / d[z];
-        if !(size[z] > 0.0 && d.is_finite() && ray.origin.is_finite()) {
+        let size = ray.direction.abs();
+        let last_is_x = size.x > size.y && size.x > size.z;
+        let z = if last_is_x { 0 } else { 2 - usize::from(size.y > size.z) };
+        // Arrays: a component of a vector by its index is a jump, which no processor foresees.
+        let (d, o) = (ray.direction.to_array(), ray.origin.to_array());
+        if !(d[z].abs() > 0.0 && ray.direction.is_finite() && ray.origin.is_finite()) {
             return None;
         }
         let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+        let rate = 1.0 / d[z];
         Some(Self {
             axes: [x, y, z],
             shear: Vec3::new(d[x] * rate, d[y] * rate, rate),
-            origin: Vec3::new(ray.origin[x], ray.origin[y], ray.origin[z]),
+            origin: Vec3::new(o[x], o[y], o[z]),
         })
     }
 
     /// A vertex in the frame, relative to the origin; z is not yet divided by d_z.
+    #[inline(always)]
     fn apply(&self, vertex: Vec3) -> Vec3 {
-        let z = vertex[self.axes[2]] - self.origin.z;
-        Vec3::new(
-            (vertex[self.axes[0]] - self.origin.x) - self.shear.x * z,
-            (vertex[self.axes[1]] - self.origin.y) - self.shear.y * z,
-            z,
-        )
+        let v = vertex.to_array();
+        let [x, y, z] = self.axes;
+        let depth = v[z] - self.origin.z;
+        Vec3::new((v[x] - self.origin.x) - self.shear.x * depth, (v[y] - self.origin.y) - self.shear.y * depth, depth)
     }
 }
 
@@ -68,6 +64,7 @@ pub struct TriangleHit {
 impl TriangleHit {
     /// The hit of a ray with a triangle, from the edge functions of the traversal; `None` where the traversal would
     /// not hit either.
+    #[inline]
     pub fn new(ray: &Ray, vertices: [Vec3; 3]) -> Option<Self> {
         let frame = ShearedRay::new(ray)?;
         let [a, b, c] = vertices.map(|vertex| frame.apply(vertex));
@@ -78,29 +75,28 @@ impl TriangleHit {
             return None;
         }
         let barycentrics = [u / determinant, v / determinant, w / determinant];
-        let mut point = Vec3::ZERO;
-        let mut size = Vec3::ZERO;
-        for (weight, vertex) in barycentrics.into_iter().zip(vertices) {
-            point += vertex * weight;
-            size += (vertex * weight).abs();
-        }
-        Some(Self { barycentrics, point, error: size * gamma(7) })
+        let [wa, wb, wc] = barycentrics;
+        let parts = [vertices[0] * wa, vertices[1] * wb, vertices[2] * wc];
+        let size = parts[0].abs() + parts[1].abs() + parts[2].abs();
+        Some(Self { barycentrics, point: parts[0] + parts[1] + parts[2], error: size * gamma(7) })
     }
 }
 
 /// The cross product of two edges in f64, of twice the triangle's area; it points to the side from which the vertices run
 /// counter-clockwise. Zero for a degenerate triangle.
+#[inline]
 pub(super) fn double_area_vector(v0: Vec3, v1: Vec3, v2: Vec3) -> DVec3 {
     let [v0, v1, v2] = [v0, v1, v2].map(|v| v.as_dvec3());
     (v1 - v0).cross(v2 - v0)
 }
 
 /// The unit normal on the side from which the vertices run counter-clockwise; `None` for a triangle without area.
+#[inline]
 pub fn geometric_normal(v0: Vec3, v1: Vec3, v2: Vec3) -> Option<DVec3> {
     let cross = double_area_vector(v0, v1, v2);
     let length = cross.length();
     // f32 input: the squared length neither overflows nor vanishes in f64 unless it is exactly 0.
-    (length > 0.0).then(|| cross / length)
+    (length > 0.0).then(|| cross * length.recip())
 }
 
 /// Area, computed in f64 and rounded.

@@ -2,8 +2,11 @@
 
 /// The balance heuristic \[Veach1997\]: weight of the technique with density `this` against one with density `other`, per
 /// sample of each. Written so that huge densities do not overflow.
+#[inline]
 pub fn balance_heuristic(this: f32, other: f32) -> f32 {
-    if this >= other { 1.0 / (1.0 + other / this) } else { 1.0 - balance_heuristic(other, this) }
+    let (large, small) = if this >= other { (this, other) } else { (other, this) };
+    let of_large = 1.0 / (1.0 + small / large);
+    if this >= other { of_large } else { 1.0 - of_large }
 }
 
 #[cfg(test)]

@@ -36,7 +36,8 @@ impl PiecewiseLinearDensity {
                 Segment { start: x[0] as f32, width: width as f32, density: (w[0] / total) as f32, slope, cdf }
             })
             .collect();
-        let cells = 2 * segments.len();
+        // So many that most lie in one segment: the search beyond a cell's first is a jump that cannot be foreseen.
+        let cells = 8 * segments.len();
         let guide =
             (0..cells).map(|i| segments.partition_point(|s| s.cdf <= i as f32 / cells as f32) as u32 - 1).collect();
         Self { segments, guide }

@@ -2,18 +2,20 @@
 
 use crate::math;
 use glam::Vec3;
-use std::f32::consts::{FRAC_PI_4, PI, TAU};
+use std::f32::consts::{FRAC_PI_4, TAU};
 
 /// Uniform points on the unit disc \[ShirleyChiu1997\].
+#[inline]
 pub fn concentric_disk(u: [f32; 2]) -> [f32; 2] {
     let (a, b) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
-    if a == 0.0 && b == 0.0 {
-        return [0.0, 0.0];
-    }
-    let (radius, angle) =
-        if a.abs() > b.abs() { (a, FRAC_PI_4 * (b / a)) } else { (b, 2.0 * FRAC_PI_4 - FRAC_PI_4 * (a / b)) };
-    let (sin, cos) = math::sin_cos_f32(angle);
-    [radius * cos, radius * sin]
+    // The wedges about the y axis are those about the x axis with the axes exchanged. Selected, not branched over: which
+    // wedge it is cannot be foreseen.
+    let about_x = a.abs() > b.abs();
+    let (radius, across) = if about_x { (a, b) } else { (b, a) };
+    let ratio = if radius == 0.0 { 0.0 } else { across / radius };
+    let (sin, cos) = math::sin_cos_eighth_turns(ratio);
+    let (along, across) = (radius * cos, radius * sin);
+    if about_x { [along, across] } else { [across, along] }
 }
 
 /// The numbers from which [`concentric_disk`] makes a point of the unit disc; clamped to the unit square.
@@ -32,6 +34,7 @@ pub fn concentric_disk_inverse([x, y]: [f32; 2]) -> [f32; 2] {
 }
 
 /// Directions about +z with density cos θ / π. Never exactly horizontal.
+#[inline]
 pub fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
     let [x, y] = concentric_disk(u);
     let z = (1.0 - x * x - y * y).max(f32::EPSILON * f32::EPSILON).sqrt();
@@ -62,7 +65,7 @@ pub fn uniform_cone_inverse(direction: Vec3, one_minus_cos: f32) -> [f32; 2] {
 
 /// A unit vector of height `z` and distance `radius` from the z axis, `turn` of the way around it.
 fn around_z(z: f32, radius: f32, turn: f32) -> Vec3 {
-    let (sin, cos) = math::sin_cos_f32(if turn < 0.5 { TAU * turn } else { TAU * turn - 2.0 * PI });
+    let (sin, cos) = math::sin_cos_turns(turn);
     Vec3::new(radius * cos, radius * sin, z)
 }
 

@@ -88,8 +88,10 @@ pub enum AreaShape {
         origin: Vec3,
         /// Edge.
         u: Vec3,
-        /// Edge; the normal is u × v.
+        /// Edge.
         v: Vec3,
+        /// Unit normal along u × v.
+        normal: Vec3,
     },
     /// An ellipse.
     Ellipse {
@@ -97,8 +99,10 @@ pub enum AreaShape {
         center: Vec3,
         /// Half axis.
         u: Vec3,
-        /// Half axis, conjugate to the first; the normal is u × v.
+        /// Half axis, conjugate to the first.
         v: Vec3,
+        /// Unit normal along u × v.
+        normal: Vec3,
     },
     /// A sphere.
     Sphere {
@@ -234,6 +238,11 @@ impl Light {
         f64::from(share.min(1.0))
     }
 
+    /// Whether a ray could run into it.
+    pub fn has_extent(&self) -> bool {
+        self.is_infinite() || matches!(self.kind, LightKind::Area { .. })
+    }
+
     /// Whether light paths can start from it.
     pub fn can_emit(&self) -> bool {
         !matches!(self.kind, LightKind::Area { shape: AreaShape::Unsampled, .. })
@@ -261,9 +270,9 @@ impl Light {
                 if facing.is_nan() || facing <= 0.0 || distance2 == 0.0 {
                     return None;
                 }
-                let pdf = distance2 / (facing * area);
+                let solid_angle = facing * area / distance2;
                 let target = offset_origin(start.point, start.error, start.normal, -wi);
-                Some(LightSample { target: Some(target), wi, weight: 1.0 / pdf, pdf: Some(pdf) })
+                Some(LightSample { target: Some(target), wi, weight: solid_angle, pdf: Some(1.0 / solid_angle) })
             }
             LightKind::Point { position } => point_sample(*position, from, |_| 1.0),
             LightKind::Spot { position, axis, inner, outer } => {
@@ -455,12 +464,10 @@ impl Light {
                 let size = parts[0].abs() + parts[1].abs() + parts[2].abs();
                 EmissionStart { point: parts[0] + parts[1] + parts[2], error: size * math::gamma(7), normal }
             }
-            AreaShape::Parallelogram { origin, u: a, v: b } => {
-                on_plane(*origin, *a * u[0], *b * u[1], a.cross(*b).normalize())
-            }
-            AreaShape::Ellipse { center, u: a, v: b } => {
+            AreaShape::Parallelogram { origin, u: a, v: b, normal } => on_plane(*origin, *a * u[0], *b * u[1], *normal),
+            AreaShape::Ellipse { center, u: a, v: b, normal } => {
                 let [x, y] = concentric_disk(u);
-                on_plane(*center, *a * x, *b * y, a.cross(*b).normalize())
+                on_plane(*center, *a * x, *b * y, *normal)
             }
             AreaShape::Sphere { center, radius } => {
                 let normal = uniform_sphere(u).normalize();

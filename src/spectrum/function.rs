@@ -195,7 +195,9 @@ fn blackbody_knots(kelvin: f64) -> Vec<f64> {
         let u = -x / math::exp_m1(-x) - 5.0;
         let curvature = ((u * u - u).abs() + x) / (lambda * lambda);
         let parts = (curvature / (8.0 * BLACKBODY_CHORD_ERROR)).sqrt().ceil().max(1.0);
-        knots.extend((0..parts as usize).map(|part| lambda + part as f64 / parts));
+        // A power of two keeps the knots on a grid that `SpectrumTable` finds its way in without a search.
+        let parts = (parts as usize).next_power_of_two();
+        knots.extend((0..parts).map(|part| lambda + part as f64 / parts as f64));
     }
     knots.push(LAMBDA_MAX_NM);
     knots

@@ -1,6 +1,7 @@
 //! Spectra compiled for rendering.
 
 use super::{SampledSpectrum, Wavelengths};
+use wide::f32x8;
 
 /// A piecewise-linear function of wavelength with fast look-up; constant beyond its ends.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,10 +10,11 @@ pub struct SpectrumTable(Layout);
 #[derive(Debug, Clone, PartialEq)]
 enum Layout {
     Constant(f32),
-    /// All knots at whole nanometres: value and slope of each nanometre from `first_nm` on. The first and the last stand
-    /// for what is beyond.
+    /// All knots on a grid of `cells_per_nm`, a power of two: value and slope, per cell, of each cell from `first_nm` on. The
+    /// first and the last stand for what is beyond.
     Uniform {
         first_nm: f32,
+        cells_per_nm: f32,
         pieces: Vec<[f32; 2]>,
     },
     /// Knots as uneven as a lamp with narrow lines needs: `guide[i]` is the last segment that starts at or below
@@ -31,8 +33,9 @@ struct Segment {
     slope: f32,
 }
 
-/// Longest table that is stored by nanometres.
-const MAX_UNIFORM: f64 = 4096.0;
+/// Longest table that is stored by cells, and the finest cells.
+const MAX_CELLS: f64 = 8192.0;
+const MAX_CELLS_PER_NM: u32 = 16;
 
 impl SpectrumTable {
     /// The same value everywhere.
@@ -46,8 +49,10 @@ impl SpectrumTable {
         if values.iter().all(|v| *v == values[0]) {
             return Self::constant(values[0] as f32);
         }
-        if last - first < MAX_UNIFORM && lambda_nm.iter().all(|l| l.fract() == 0.0) {
-            return Self::uniform(lambda_nm, values);
+        let grids = (0..=MAX_CELLS_PER_NM.ilog2()).map(|k| f64::from(1 << k));
+        let on_grid = |cells_per_nm: f64| lambda_nm.iter().all(|l| (l * cells_per_nm).fract() == 0.0);
+        if let Some(cells_per_nm) = grids.take_while(|c| (last - first) * c < MAX_CELLS).find(|c| on_grid(*c)) {
+            return Self::uniform(lambda_nm, values, cells_per_nm);
         }
         let flat = |start_nm, value: f64| Segment { start_nm, value: value as f32, slope: 0.0 };
         let mut segments = vec![flat(f32::NEG_INFINITY, values[0])];
@@ -63,23 +68,24 @@ impl SpectrumTable {
         Self(Layout::Uneven { first_nm, guide, segments })
     }
 
-    fn uniform(lambda_nm: &[f64], values: &[f64]) -> Self {
+    fn uniform(lambda_nm: &[f64], values: &[f64], cells_per_nm: f64) -> Self {
         let mut pieces = vec![[values[0] as f32, 0.0]];
         for (l, v) in lambda_nm.windows(2).zip(values.windows(2)) {
-            let slope = (v[1] - v[0]) / (l[1] - l[0]);
-            let steps = (l[1] - l[0]) as u32;
+            let steps = ((l[1] - l[0]) * cells_per_nm) as u32;
+            let slope = (v[1] - v[0]) / f64::from(steps);
             pieces.extend((0..steps).map(|i| [(v[0] + slope * f64::from(i)) as f32, slope as f32]));
         }
         pieces.push([values[values.len() - 1] as f32, 0.0]);
-        Self(Layout::Uniform { first_nm: lambda_nm[0] as f32 - 1.0, pieces })
+        let first_nm = (lambda_nm[0] - 1.0 / cells_per_nm) as f32;
+        Self(Layout::Uniform { first_nm, cells_per_nm: cells_per_nm as f32, pieces })
     }
 
     /// The value at a wavelength.
     pub fn eval(&self, lambda_nm: f32) -> f32 {
         let (value, slope, t) = match &self.0 {
             Layout::Constant(value) => return *value,
-            Layout::Uniform { first_nm, pieces } => {
-                let cell = (lambda_nm - first_nm).max(0.0);
+            Layout::Uniform { first_nm, cells_per_nm, pieces } => {
+                let cell = ((lambda_nm - first_nm) * cells_per_nm).max(0.0);
                 let k = (cell as usize).min(pieces.len() - 1);
                 let [value, slope] = pieces[k];
                 (value, slope, cell - k as f32)
@@ -100,11 +106,25 @@ impl SpectrumTable {
 
     /// The values at a path's wavelengths.
     pub fn sample(&self, wavelengths: &Wavelengths) -> SampledSpectrum {
-        match self.0 {
-            Layout::Constant(value) => SampledSpectrum::splat(value),
-            _ => SampledSpectrum::new(wavelengths.lambda_nm.map(|lambda_nm| self.eval(lambda_nm))),
+        match &self.0 {
+            Layout::Constant(value) => SampledSpectrum::splat(*value),
+            Layout::Uniform { first_nm, cells_per_nm, pieces } => {
+                sample_uniform(*first_nm, *cells_per_nm, pieces, wavelengths)
+            }
+            Layout::Uneven { .. } => SampledSpectrum::new(wavelengths.lambda_nm.map(|lambda_nm| self.eval(lambda_nm))),
         }
     }
+}
+
+/// [`SpectrumTable::eval`] of a [`Layout::Uniform`] in all lanes.
+fn sample_uniform(first_nm: f32, cells_per_nm: f32, pieces: &[[f32; 2]], wavelengths: &Wavelengths) -> SampledSpectrum {
+    let last = pieces.len() - 1;
+    let offset = f32x8::new(wavelengths.lambda_nm) - f32x8::splat(first_nm);
+    let cell = (offset * f32x8::splat(cells_per_nm)).fast_max(f32x8::ZERO);
+    let whole = cell.fast_min(f32x8::splat(last as f32)).trunc();
+    let found = whole.fast_trunc_int().to_array().map(|k| pieces[(k as usize).min(last)]);
+    let (value, slope) = (f32x8::new(found.map(|piece| piece[0])), f32x8::new(found.map(|piece| piece[1])));
+    SampledSpectrum::from((value + slope * (cell - whole)).fast_max(f32x8::ZERO))
 }
 
 #[cfg(test)]
@@ -124,6 +144,23 @@ mod tests {
         assert!((table.eval(500.255) - 5.0).abs() < 0.02);
         assert_eq!(SpectrumTable::constant(0.25).eval(555.0), 0.25);
         assert_eq!(SpectrumTable::new(&[400.0, 500.0], &[2.0, 2.0]), SpectrumTable::constant(2.0));
+    }
+
+    /// All lanes at once give what each alone gives, to the bit.
+    #[test]
+    fn lanes_agree_with_single_wavelengths() {
+        let uniform = SpectrumTable::new(&[400.0, 405.0, 410.0, 700.0], &[1.0, 3.0, 0.0, 2.9]);
+        let halves = SpectrumTable::new(&[400.0, 400.5, 700.0], &[1.0, 3.0, 2.0]);
+        assert!(matches!(halves.0, Layout::Uniform { cells_per_nm: 2.0, .. }));
+        let uneven = SpectrumTable::new(&[400.0, 400.3, 700.0], &[1.0, 3.0, 2.0]);
+        assert!(matches!(uneven.0, Layout::Uneven { .. }));
+        for i in 0..500 {
+            let lambda_nm = std::array::from_fn(|lane| 360.0 + (i * 8 + lane) as f32 * 0.117_531);
+            let wavelengths = Wavelengths { lambda_nm, pdf: [1.0; 8] };
+            for table in [&uniform, &halves, &uneven] {
+                assert_eq!(table.sample(&wavelengths).lanes(), lambda_nm.map(|l| table.eval(l)));
+            }
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The wavelengths of a path and how they are drawn.
 
 use super::LANES;
-use crate::sampling::PiecewiseLinearDensity;
+use crate::sampling::QuantileDensity;
 
 /// The wavelengths of a path with their densities.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Wavelengths {
 /// The density that wavelengths are drawn from: light × observer, mixed with two defensive shares so that no weight is
 /// unbounded where the lights of a scene happen to be dark.
 #[derive(Debug, Clone)]
-pub struct WavelengthDensity(PiecewiseLinearDensity);
+pub struct WavelengthDensity(QuantileDensity);
 
 /// Share of the observer alone.
 const OBSERVER_SHARE: f64 = 0.08;
@@ -41,7 +41,7 @@ impl WavelengthDensity {
                 matched * light + OBSERVER_SHARE * observer + UNIFORM_SHARE / range
             })
             .collect();
-        Self(PiecewiseLinearDensity::new(lambda_nm, &weights))
+        Self(QuantileDensity::new(lambda_nm, &weights))
     }
 
     /// Lane k is P⁻¹((k + u) / 8): the lanes are stratified among themselves, and with the samples of the pixel through u.

@@ -3,7 +3,7 @@
 
 use super::super::triangle::ShearedRay;
 use super::super::{Aabb, Ray};
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use wide::f32x8;
 
 /// Children of a node.
@@ -218,8 +218,10 @@ impl Packet {
     /// Distance to the plane of one triangle, if that is ahead. A ray that leaves the triangle starts beside it by the
     /// rounding of f32, which f64 tells apart at any angle.
     pub fn exact_distance(&self, lane: usize, ray: &Ray) -> Option<f32> {
-        let vertex =
-            |v: usize| DVec3::from_array(self.vertices[v].each_ref().map(|axis| f64::from(axis.to_array()[lane])));
+        let vertex = |v: usize| {
+            let [x, y, z] = &self.vertices[v];
+            Vec3::new(x.as_array()[lane], y.as_array()[lane], z.as_array()[lane]).as_dvec3()
+        };
         let a = vertex(0);
         let normal = (vertex(1) - a).cross(vertex(2) - a);
         let t = normal.dot(a - ray.origin.as_dvec3()) / normal.dot(ray.direction.as_dvec3());

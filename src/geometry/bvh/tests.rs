@@ -146,7 +146,7 @@ impl Soup {
     fn needles(n: u32, radius: f32) -> Self {
         let mut positions = vec![Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.0, 0.0, -1.0)];
         for i in 0..n {
-            let (sin, cos) = crate::math::sin_cos_f32(i as f32 / n as f32 * std::f32::consts::TAU);
+            let (sin, cos) = crate::math::sin_cos_turns(i as f32 / n as f32);
             positions.push(Vec3::new(cos * radius, sin * radius, 0.0));
         }
         let ring = (0..n).map(|i| (2 + i, 2 + (i + 1) % n));

@@ -71,7 +71,7 @@ pub fn compile(
         local: Vec::new(),
         wavelengths: spectral.density(&raw, normalization.radius),
         radiance_scale,
-        caustic_aim: specular_aim(geometry),
+        caustic_aim: focusing_aim(geometry),
     };
     let (mut sampled, mut caustic, mut emitting) = (Vec::new(), Vec::new(), Vec::new());
     for raw in raw {
@@ -196,7 +196,8 @@ fn area_light(object: &ObjectDescription, source: &Source, geometry: &Geometry) 
             let v = if transform.matrix3.determinant() < 0.0 { -v } else { v };
             let area = std::f64::consts::PI * u.cross(v).length();
             let center = placed.translation.as_vec3();
-            (AreaShape::Ellipse { center, u: u.as_vec3(), v: v.as_vec3() }, area as f32)
+            let normal = u.cross(v).normalize().as_vec3();
+            (AreaShape::Ellipse { center, u: u.as_vec3(), v: v.as_vec3(), normal }, area as f32)
         }
         Source::Analytic(..) => (AreaShape::Unsampled, 0.0),
     };
@@ -209,7 +210,8 @@ fn triangle_light(shape: &ShapeDescription, range: std::ops::Range<u32>, geometr
         let [[o, a, c], [_, d, e]] = [corners(range.start), corners(range.start + 1)];
         // Triangles (0 1 2), (0 2 3), or with the last two swapped after a mirroring.
         let (u, v) = if c == d { (a - o, e - o) } else { (d - o, c - o) };
-        return (AreaShape::Parallelogram { origin: o, u, v }, u.cross(v).length());
+        let normal = u.as_dvec3().cross(v.as_dvec3()).normalize().as_vec3();
+        return (AreaShape::Parallelogram { origin: o, u, v, normal }, u.cross(v).length());
     }
     let areas: Vec<f64> = range
         .clone()
@@ -238,9 +240,9 @@ fn sphere_light(center: DVec3, radius: f64, transform: &DAffine3) -> (AreaShape,
 }
 
 /// A sphere around everything that can focus light; `None` if nothing can.
-fn specular_aim(geometry: &Geometry) -> Option<Aim> {
-    let specular = geometry.objects.iter().filter(|o| o.material.is_specular());
-    let bounds = specular.fold(Aabb::EMPTY, |bounds, o| bounds.union(o.bounds));
+fn focusing_aim(geometry: &Geometry) -> Option<Aim> {
+    let casters = geometry.objects.iter().filter(|o| o.material.focuses());
+    let bounds = casters.fold(Aabb::EMPTY, |bounds, o| bounds.union(o.bounds));
     let half = (bounds.max - bounds.min) * 0.5;
     half.is_finite().then(|| Aim { center: bounds.center(), radius: half.length() * (1.0 + 4.0 * f32::EPSILON) })
 }
