@@ -3,7 +3,7 @@
 
 use super::super::triangle::ShearedRay;
 use super::super::{Aabb, Ray};
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use wide::f32x8;
 
 /// Children of a node.
