@@ -6,10 +6,15 @@
 //! million triangles, comes only if building that of 330 thousand foretells less than 10 s for it.
 
 use abbe::geometry::{Bvh, Primitive, Ray, TriangleHit, geometric_normal, offset_origin};
-use abbe::math::sin_cos_f32;
+use abbe::math;
 use glam::Vec3;
 use std::collections::HashMap;
 use std::time::Instant;
+
+/// Sine and cosine of an angle in radians.
+fn sin_cos(angle: f32) -> (f32, f32) {
+    (math::sin(f64::from(angle)) as f32, math::cos(f64::from(angle)) as f32)
+}
 
 struct Mesh {
     positions: Vec<Vec3>,
@@ -78,9 +83,9 @@ impl Mesh {
         for i in 0..=n {
             for k in 0..=n {
                 let (theta, phi) = (PI * i as f32 / n as f32, 2.0 * PI * (k % n) as f32 / n as f32);
-                let (sin, cos) = sin_cos_f32(theta);
-                let (sin_phi, cos_phi) = sin_cos_f32(phi);
-                let bump = 1.0 + 0.02 * sin_cos_f32(40.0 * theta).0 * sin_cos_f32(40.0 * phi).0;
+                let (sin, cos) = sin_cos(theta);
+                let (sin_phi, cos_phi) = sin_cos(phi);
+                let bump = 1.0 + 0.02 * sin_cos(40.0 * theta).0 * sin_cos(40.0 * phi).0;
                 self.positions.push(Vec3::new(sin * cos_phi, cos, sin * sin_phi) * radius * bump);
             }
         }

@@ -90,6 +90,14 @@ fn two_integrators_and_a_command_on_the_same_work() {
         assert!(systematic.abs() < 0.5 * errors[2], "{systematic} of {errors:?}");
         assert!(variant["slope"].as_f64().unwrap() < -0.6, "{variant}");
     }
+    // Rays by kind are known of abbe's runs, not of another program's.
+    let budget = |variant: usize, key: &str| variants[variant]["budgets"][2][key].clone();
+    let kinds = budget(0, "rays_per_cpu_second_by_kind");
+    let [camera, shadow] = ["camera", "shadow"].map(|kind| kinds[kind].as_f64().unwrap());
+    assert!(camera > shadow && shadow > 0.0 && kinds.get("merging").is_none(), "{kinds}");
+    assert_eq!(budget(0, "lane_occupancy"), 1.0);
+    assert!(budget(2, "lane_occupancy").is_null() && budget(2, "rays_per_cpu_second").is_null());
+    assert!(out.contains("shadow rays  lanes in use") && budget(0, "peak_memory_bytes").is_u64());
     // The command renders the same samples that the library does: path is what auto does here.
     let error =
         |variant: usize, run: usize| variants[variant]["budgets"][1]["runs"][run]["relmse_raw"].as_f64().unwrap();
@@ -152,9 +160,13 @@ fn a_file_as_reference_and_a_mask() {
 #[test]
 fn refusals_in_one_line() {
     let folder = Folder::new();
-    folder.refuses(&["ball.json", "--calibrate"], 2, "`--calibrate` is not there yet");
+    folder.refuses(&["ball.json", "--calibrate", "--against", "x=y {spp} {out}"], 2, "makes no claims");
     folder.refuses(&["none.json"], 3, "none.json");
-    folder.refuses(&["ball.json", "--vary", "lanes=4"], 2, "no such setting; expected one of integrator, max-depth");
+    folder.refuses(
+        &["ball.json", "--vary", "lanes=4"],
+        2,
+        "no such setting; expected one of integrator, max-depth, adaptive",
+    );
     folder.refuses(&["ball.json", "--reference", "heroo"], 2, "did you mean \"hero\"?");
     folder.refuses(&["ball.json", "--against", "x"], 2, "expected NAME=COMMAND");
     folder.refuses(&["ball.json", "--target", "0"], 2, "expected a relMSE above 0");

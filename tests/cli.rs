@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use bad::{BadScene, GOOD, bad_scenes};
 use exr::prelude::*;
 use rayon::prelude::*;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// An empty folder of its own, removed at the end.
 struct Folder(PathBuf);
@@ -274,8 +274,31 @@ fn what_is_not_there_yet_is_refused_not_ignored() {
         folder.abbe(&[command]).fails(2, &[command, "not there yet"]);
         folder.abbe(&[command, "scene.json", "--threshold", "1"]).fails(2, &[command, "not there yet"]);
     }
-    for flag in [["--bands", "8"], ["--time", "3"], ["--target-error", "1e-3"]] {
-        folder.abbe(&[&["render", "scene.json"], &flag[..]].concat()).fails(2, &[flag[0], "not there yet"]);
+    folder.abbe(&["render", "scene.json", "--bands", "8"]).fails(2, &["--bands", "not there yet"]);
+}
+
+#[test]
+fn a_render_stops_at_its_time_and_at_its_target() {
+    let folder = Folder::with_scene();
+    let run = folder.abbe(&["render", "scene.json", "-o", "a.exr", "--time", "0.4", "--json"]);
+    let told: Value = serde_json::from_slice(&run.out).unwrap();
+    assert!(run.code == Some(0) && told["samples_per_pixel"].as_u64().unwrap() > 0, "{told}");
+    assert_eq!((told["adaptive"].clone(), told["target_reached"].clone()), (json!(true), Value::Null));
+    let phases = &told["profile"]["phases"];
+    assert!(phases["camera"]["seconds"].as_f64().unwrap() > 0.0 && phases["camera"]["rays"].as_u64().unwrap() > 0);
+    let target = ["render", "scene.json", "-o", "b.exr", "--target-error", "0.5", "--json"];
+    let run = folder.abbe(&target);
+    let told: Value = serde_json::from_slice(&run.out).unwrap();
+    assert!(run.code == Some(0) && told["relative_mse_bound"].as_f64().unwrap() < 0.5, "{told}");
+    assert_eq!(told["target_reached"], json!(true));
+    // With a limit that is too low it says so.
+    let run = folder.abbe(&[&target[..], &["--spp", "2", "--adaptive", "off"]].concat());
+    let told: Value = serde_json::from_slice(&run.out).unwrap();
+    assert_eq!((told["target_reached"].clone(), told["samples_per_pixel"].clone()), (json!(false), json!(2)));
+    assert!(run.err.contains("has not been reached"), "{}", run.err);
+    for (flag, value) in [("--time", "-1"), ("--time", "nan"), ("--target-error", "0"), ("--target-error", "inf")] {
+        let argument = format!("{flag}={value}");
+        folder.abbe(&["render", "scene.json", &argument]).fails(2, &[flag, "expected"]);
     }
 }
 
@@ -349,7 +372,10 @@ fn render_writes_exr_and_png() {
     assert_eq!(folder.files(), ["scene.exr", "scene.json", "scene.png"]);
     let (size, channels) = read_exr(&folder.read("scene.exr"));
     assert_eq!(size, (24, 18));
-    assert_eq!(channels.keys().collect::<Vec<_>>(), ["B", "G", "R", "X", "Y", "Z"]);
+    assert_eq!(
+        channels.keys().collect::<Vec<_>>(),
+        ["B", "G", "R", "X", "Y", "Z", "error.X", "error.Y", "error.Z", "samples"]
+    );
     assert!(channels.values().flatten().all(|v| v.is_finite()));
     assert!(channels["Y"].iter().all(|&y| y > 0.0) && channels["Y"].len() == 24 * 18);
     // Linear sRGB's luminance is Y.

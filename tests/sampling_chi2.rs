@@ -4,7 +4,7 @@
 #[path = "common/render.rs"]
 mod common;
 
-use abbe::bsdf::{Diffuse, Lanes};
+use abbe::bsdf::{Conductor, Dielectric, Diffuse, Ggx, Indices, Lanes, RoughConductor, RoughDielectric, RoughSample};
 use abbe::film::Filter;
 use abbe::geometry::{Frame, sample_triangle};
 use abbe::math;
@@ -411,4 +411,40 @@ fn dielectric_choice() {
             assert_fits("reflections", &[reflected, SAMPLES / 10 - reflected], &[f, 1.0 - f], SAMPLES / 10);
         }
     }
+}
+
+/// Rough surfaces: each lane of glass alone, from either side; all lanes led by one drawn among them; and a metal.
+#[test]
+fn rough_surfaces() {
+    let geometric = DVec3::new(0.2, 0.9, -0.3).normalize();
+    let frame = Frame { geometric, shading: geometric.as_vec3() };
+    let wo = (geometric + DVec3::new(0.9, 0.1, -0.4)).normalize().as_vec3();
+    let flint = Indices { eta: std::array::from_fn(|k| 1.95 - 0.02 * k as f64), dispersive: true };
+    for (alpha, lanes, from, to) in [
+        (0.3, Lanes::Only(2), Indices::AIR, flint),
+        (0.5, Lanes::Only(7), flint, Indices::AIR),
+        (1.0, Lanes::Only(0), Indices::AIR, flint),
+        (0.4, Lanes::Shared, Indices::AIR, flint),
+        (0.4, Lanes::Shared, flint, Indices::AIR),
+    ] {
+        let (boundary, odds) = (Dielectric { from, to }, SampledSpectrum::ONE);
+        let bsdf = RoughDielectric { boundary, ggx: Ggx::new(alpha), lanes, hero: 0, odds, parts: false };
+        let sample = |i| {
+            let hero = (uniform(i, 3) * 8.0) as usize;
+            let u = [uniform(i, 0), uniform(i, 1), uniform(i, 2)];
+            match (RoughDielectric { hero, ..bsdf }).sample(&frame, wo, SampledSpectrum::ONE, u)? {
+                RoughSample::Together { sample, .. } => Some(sample.wi),
+                RoughSample::Parted { .. } => None,
+            }
+        };
+        let pdf = |wi| {
+            let own = bsdf.lobe(&frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| lobe.own_pdf);
+            if let Lanes::Only(lane) = lanes { own.lane(lane) } else { own.mean() }
+        };
+        test_directions(&format!("rough glass, {alpha}, {lanes:?}"), geometric, -1.0, sample, pdf);
+    }
+    let (eta, k) = (SampledSpectrum::splat(0.2), SampledSpectrum::splat(3.0));
+    let metal = RoughConductor { facets: Conductor { eta, k, eta_outside: [1.0; 8] }, ggx: Ggx::new(0.4) };
+    let sample = |i| metal.sample(&frame, wo, pair(i, 0)).map(|s| s.wi);
+    test_directions("rough metal", geometric, -1.0, sample, |wi| metal.pdf(&frame, wo, wi));
 }

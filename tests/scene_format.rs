@@ -58,7 +58,10 @@ fn objects_materials_and_lights_have_the_documented_defaults() {
     let diffuse = MaterialKind::Diffuse { reflectance: constant(0.5, "materials.a.reflectance") };
     assert_eq!(scene.materials[0].1, MaterialDescription { kind: diffuse, two_sided: true, at: "materials.a".into() });
     let ior = IorDescription { kind: IorKind::Constant(1.5), hold: false, at: "materials.b.ior".into() };
-    assert_eq!(scene.materials[1].1.kind, MaterialKind::Dielectric { ior, absorption_per_m: None, priority: 0 });
+    assert_eq!(
+        scene.materials[1].1.kind,
+        MaterialKind::Dielectric { ior, roughness: 0.0, absorption_per_m: None, priority: 0 }
+    );
     assert_eq!(
         scene.objects[0],
         ObjectDescription {
@@ -109,10 +112,11 @@ fn the_full_scene_is_read_field_for_field() {
 
     assert_eq!((scene.materials.len(), scene.objects.len(), scene.lights.len()), (11, 14, 4));
     assert!(!scene.materials[0].1.two_sided);
-    let MaterialKind::Dielectric { ior, absorption_per_m, priority } = &scene.materials[4].1.kind else { panic!() };
+    let MaterialKind::Dielectric { ior, absorption_per_m, priority, .. } = &scene.materials[4].1.kind else { panic!() };
     assert_eq!((&ior.kind, ior.hold, *priority), (&IorKind::Glass("N-SF11".into()), true, -2));
     assert_eq!(absorption_per_m.as_ref().unwrap().scale, 4.0);
-    assert_eq!(scene.materials[2].1.kind, MaterialKind::Conductor(ConductorDescription::Metal("Au".into())));
+    let index = ConductorDescription::Metal("Au".into());
+    assert_eq!(scene.materials[2].1.kind, MaterialKind::Conductor { index, roughness: 0.0 });
 
     let ball = &scene.objects[0];
     assert_eq!((ball.name.as_deref(), ball.material), (Some("ball"), Some(4)));

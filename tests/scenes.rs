@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use abbe::render::render;
+use abbe::render::{Rendering, render};
 use abbe::scene::description::parse_file;
 use abbe::scene::{SceneFeatures, compile};
 
@@ -28,7 +28,8 @@ fn every_scene_renders() {
         let compiled = compile(&description).unwrap_or_else(|e| panic!("{e}"));
 
         let needed = SceneFeatures { dispersion: false, interiors: false };
-        let (film, statistics) = render(&compiled.scene, &compiled.render, &compiled.film, needed, &mut |_| true);
+        let Rendering { film, statistics, .. } =
+            render(&compiled.scene, &compiled.render, &compiled.film, needed, &mut |_| true);
         assert!(statistics.complete, "{name}");
         assert_eq!(film.non_finite_samples, 0, "{name}");
         let (underflows, rays) = (statistics.counters.medium_underflows, statistics.counters.rays);

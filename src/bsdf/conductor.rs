@@ -22,10 +22,14 @@ impl Conductor {
     /// The mirror direction, weighted lane by lane.
     pub fn sample(&self, frame: &Frame, wo: Vec3) -> Option<BsdfSample> {
         let cos_theta = frame.geometric.dot(wo.as_dvec3().normalize()).abs();
+        Some(BsdfSample { wi: mirror_direction(frame, wo), weight: self.reflectance(cos_theta), pdf: None })
+    }
+
+    /// Reflected share of unpolarised light that arrives with this cosine, in each lane.
+    pub fn reflectance(&self, cos_theta: f64) -> SampledSpectrum {
         let (eta, k) = (self.eta.lanes(), self.k.lanes());
-        let weight = SampledSpectrum::from_fn(|lane| {
+        SampledSpectrum::from_fn(|lane| {
             fresnel_conductor(cos_theta, self.eta_outside[lane], f64::from(eta[lane]), f64::from(k[lane])) as f32
-        });
-        Some(BsdfSample { wi: mirror_direction(frame, wo), weight, pdf: None })
+        })
     }
 }

@@ -51,7 +51,11 @@ pub struct Incidence {
 impl Incidence {
     /// Of a path that travels along the unit `direction` and meets a surface whose unit `normal` faces it.
     pub fn new(direction: Vec3, normal: DVec3) -> Self {
-        let direction = direction.as_dvec3().normalize();
+        Self::of(direction.as_dvec3().normalize(), normal)
+    }
+
+    /// The same for a direction that is a unit vector in f64.
+    pub fn of(direction: DVec3, normal: DVec3) -> Self {
         Self { direction, normal, cos_theta: (-direction.dot(normal)).clamp(0.0, 1.0) }
     }
 
@@ -115,10 +119,15 @@ impl Dielectric {
 
     /// The direction in which a lane is refracted; `None` beyond its critical angle.
     pub fn refracted(&self, incidence: &Incidence, lane: usize) -> Option<Vec3> {
+        self.refracted_exactly(incidence, lane).map(|direction| direction.as_vec3())
+    }
+
+    /// The same in f64.
+    pub fn refracted_exactly(&self, incidence: &Incidence, lane: usize) -> Option<DVec3> {
         let (from, to) = (self.from.eta[lane], self.to.eta[lane]);
         let Incidence { direction, normal, cos_theta } = *incidence;
         let refraction = optics::refract(cos_theta, from, to)?;
-        Some(refraction.direction(direction, normal, cos_theta, from, to).as_vec3())
+        Some(refraction.direction(direction, normal, cos_theta, from, to))
     }
 }
 

@@ -6,18 +6,24 @@
 mod conductor;
 mod dielectric;
 mod diffuse;
+mod microfacet;
 mod mirror;
+mod rough_conductor;
+mod rough_dielectric;
 
 pub use conductor::Conductor;
-pub use dielectric::{Dielectric, Incidence, Indices, Lanes};
+pub use dielectric::{Dielectric, DielectricSample, Incidence, Indices, Lanes};
 pub use diffuse::Diffuse;
+pub use microfacet::{Ggx, lit_of_visible};
 pub use mirror::Mirror;
+pub use rough_conductor::RoughConductor;
+pub use rough_dielectric::{Lobe, RoughDielectric, RoughSample};
 
 use crate::geometry::Frame;
 use crate::spectrum::SampledSpectrum;
 use glam::Vec3;
 
-/// An opaque surface at a hit.
+/// A surface at a hit. Smooth boundaries of transparent volumes are no part of it, as they are met by [`Dielectric`].
 #[derive(Debug, Clone, Copy)]
 pub enum Bsdf {
     /// Lambertian.
@@ -26,6 +32,10 @@ pub enum Bsdf {
     Mirror(Mirror),
     /// Smooth metal.
     Conductor(Conductor),
+    /// Rough metal.
+    RoughConductor(RoughConductor),
+    /// Rough boundary of a transparent volume.
+    RoughDielectric(RoughDielectric),
 }
 
 /// A sampled direction.
@@ -42,7 +52,12 @@ pub struct BsdfSample {
 impl Bsdf {
     /// Whether the distribution is a delta, for which `eval` and `pdf` are 0.
     pub fn is_specular(&self) -> bool {
-        !matches!(self, Self::Diffuse(_))
+        matches!(self, Self::Mirror(_) | Self::Conductor(_))
+    }
+
+    /// Whether it has a lobe about the direction of reflection or refraction, wide or narrow.
+    pub fn is_rough(&self) -> bool {
+        matches!(self, Self::RoughConductor(_) | Self::RoughDielectric(_))
     }
 
     /// f · |cos θ_i|, per sr, for unit directions.
@@ -50,23 +65,37 @@ impl Bsdf {
         match self {
             Self::Diffuse(b) => b.eval(frame, wo, wi),
             Self::Mirror(_) | Self::Conductor(_) => SampledSpectrum::ZERO,
+            Self::RoughConductor(b) => b.eval(frame, wo, wi),
+            Self::RoughDielectric(b) => b.eval(frame, wo, wi),
         }
     }
 
-    /// Draws a direction.
+    /// Draws a direction at an opaque surface; at a boundary, where lanes have something to say, see
+    /// [`RoughDielectric::sample`].
     pub fn sample(&self, frame: &Frame, wo: Vec3, u: [f32; 2]) -> Option<BsdfSample> {
         match self {
             Self::Diffuse(b) => b.sample(frame, wo, u),
             Self::Mirror(b) => b.sample(frame, wo),
             Self::Conductor(b) => b.sample(frame, wo),
+            Self::RoughConductor(b) => b.sample(frame, wo, u),
+            Self::RoughDielectric(_) => None,
         }
     }
 
-    /// Density of `sample` in solid angle.
+    /// Density in solid angle with which each lane would draw a direction if it were alone.
+    pub fn own_pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+        match self {
+            Self::RoughDielectric(b) => b.lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| lobe.own_pdf),
+            _ => SampledSpectrum::splat(self.pdf(frame, wo, wi)),
+        }
+    }
+
+    /// Density of `sample` in solid angle; 0 at boundaries.
     pub fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> f32 {
         match self {
             Self::Diffuse(b) => b.pdf(frame, wo, wi),
-            Self::Mirror(_) | Self::Conductor(_) => 0.0,
+            Self::RoughConductor(b) => b.pdf(frame, wo, wi),
+            Self::Mirror(_) | Self::Conductor(_) | Self::RoughDielectric(_) => 0.0,
         }
     }
 }

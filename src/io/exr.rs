@@ -1,6 +1,8 @@
-//! OpenEXR output: 32-bit float, scan lines, ZIP; channels R, G, B (linear sRGB) and X, Y, Z.
+//! OpenEXR output: 32-bit float, scan lines, ZIP; channels R, G, B (linear sRGB) and X, Y, Z, the number of camera samples
+//! `samples`, and the standard error of each value `error.X`, `error.Y`, `error.Z`.
 
 use crate::color::RgbSpace;
+use crate::film::Film;
 use crate::{Error, ErrorKind, Result};
 use exr::prelude::*;
 use glam::DVec3;
@@ -19,25 +21,29 @@ pub struct Attributes {
     pub seconds: f64,
 }
 
-/// Encodes a picture given as XYZ, row by row. Also tells how many values did not fit into f32 and became its largest.
-pub fn encode(xyz: &[[f64; 3]], width: u32, attributes: &Attributes) -> Result<(Vec<u8>, usize)> {
-    let size = Vec2(width as usize, xyz.len() / width as usize);
+/// The channels of a picture.
+const CHANNELS: [&str; 10] = ["R", "G", "B", "X", "Y", "Z", "samples", "error.X", "error.Y", "error.Z"];
+
+/// Encodes a picture. Also tells how many values did not fit into f32 and became its largest.
+pub fn encode(film: &Film, attributes: &Attributes) -> Result<(Vec<u8>, usize)> {
+    let size = Vec2(film.width() as usize, film.height() as usize);
     let mut overflows = 0;
     let mut narrow = |v: f64| {
         let fits = v.abs() <= f64::from(f32::MAX);
         overflows += usize::from(!fits);
         if fits { v as f32 } else { f32::MAX.copysign(v as f32) }
     };
-    let mut planes: [Vec<f32>; 6] = Default::default();
-    for &pixel in xyz {
-        let rgb = RgbSpace::srgb().rgb_from_xyz * DVec3::from(pixel);
-        for (plane, value) in planes.iter_mut().zip([rgb.x, rgb.y, rgb.z, pixel[0], pixel[1], pixel[2]]) {
+    let mut planes: [Vec<f32>; CHANNELS.len()] = Default::default();
+    for (pixel, xyz) in film.to_xyz().into_iter().enumerate() {
+        let rgb = (RgbSpace::srgb().rgb_from_xyz * DVec3::from(xyz)).to_array();
+        let samples = [film.samples(pixel) as f64];
+        let error = film.standard_error(pixel);
+        for (plane, value) in planes.iter_mut().zip(rgb.into_iter().chain(xyz).chain(samples).chain(error)) {
             plane.push(narrow(value));
         }
     }
-    let channels = ["R", "G", "B", "X", "Y", "Z"].into_iter().zip(planes);
     let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> =
-        channels.map(|(name, plane)| AnyChannel::new(name, FlatSamples::F32(plane))).collect();
+        CHANNELS.into_iter().zip(planes).map(|(name, plane)| AnyChannel::new(name, FlatSamples::F32(plane))).collect();
 
     let mut layer = LayerAttributes { software_name: Some(Text::from(crate::VERSION)), ..Default::default() };
     let mut other = |name: &str, value: AttributeValue| layer.other.insert(Text::from(name), value);
@@ -84,17 +90,22 @@ mod tests {
     #[test]
     fn what_is_written_can_be_read() {
         let attributes = Attributes { scene_hash: 0xabc, seed: 7, samples_per_pixel: 16, seconds: 1.5 };
-        let xyz: Vec<[f64; 3]> = (0..6).map(|i| [f64::from(i), 0.5, 1e60]).collect();
-        let (bytes, overflows) = encode(&xyz, 3, &attributes).unwrap();
+        let mut film = Film::new(3, 2, 1.0);
+        for (i, sums) in film.camera_mut().iter_mut().enumerate() {
+            (0..2).for_each(|r| assert!(sums.add_sample(r, [i as f64, 0.5 + r as f64, 1e60])));
+        }
+        let (bytes, overflows) = encode(&film, &attributes).unwrap();
         assert!(overflows > 0);
         let image = read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
         let image = image.from_buffered(Cursor::new(bytes)).unwrap();
         let layer = &image.layer_data[0];
         assert_eq!((layer.size.0, layer.size.1), (3, 2));
         let names: Vec<String> = layer.channel_data.list.iter().map(|c| c.name.to_string()).collect();
-        assert_eq!(names, ["B", "G", "R", "X", "Y", "Z"]);
-        let x = &layer.channel_data.list[3].sample_data;
-        assert_eq!(x.values_as_f32().collect::<Vec<_>>(), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert_eq!(names, ["B", "G", "R", "X", "Y", "Z", "error.X", "error.Y", "error.Z", "samples"]);
+        let values = |i: usize| layer.channel_data.list[i].sample_data.values_as_f32().collect::<Vec<f32>>();
+        assert_eq!(values(3), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert_eq!(values(7), [0.5; 6]);
+        assert_eq!(values(9), [2.0; 6]);
         assert_eq!(layer.attributes.other[&Text::from("sceneHash")], AttributeValue::Text("0000000000000abc".into()));
         assert!(image.attributes.chromaticities.is_some());
     }

@@ -3,9 +3,6 @@
 
 use crate::film::Film;
 
-/// Camera samples a pixel after which the split is looked at again, each time four times as many. What is learnt changes
-/// only there.
-const FIRST_LOOK: u64 = 8;
 /// Variance of a pixel relative to its brightness squared beyond which it counts as this: the error of a pixel that has
 /// hardly been hit says little.
 const LARGEST: f64 = 1.0;
@@ -51,25 +48,10 @@ impl Allocation {
     }
 }
 
-/// The sample at which the segment that holds sample `done` ends.
-pub fn segment_end(done: u64, total: u64) -> u64 {
-    let mut end = FIRST_LOOK;
-    while end <= done {
-        end *= 4;
-    }
-    end.min(total)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::film::Splat;
-
-    #[test]
-    fn segments() {
-        let ends: Vec<u64> = [0, 7, 8, 31, 32, 99].into_iter().map(|done| segment_end(done, 100)).collect();
-        assert_eq!(ends, [8, 8, 32, 32, 100, 100]);
-    }
 
     /// Equal variances and costs keep the split; four times the variance doubles the number.
     #[test]

@@ -1,9 +1,9 @@
 //! Light paths, splatted where the camera sees them.
 
-use super::bounce;
 use super::guide::Guide;
-use super::path::camera_density;
-use super::techniques::Techniques;
+use super::path::{camera_density, rough_camera_density};
+use super::scatter::{Bounce, Met};
+use super::techniques::{LightPathDensity, Techniques};
 use super::walk::{Crossing, Parting, Walk};
 use super::workspace::Workspace;
 use crate::bsdf::Bsdf;
@@ -47,9 +47,27 @@ pub struct Start {
     pub wavelengths: Wavelengths,
 }
 
-/// A light path at a diffuse surface.
+/// What a light path met first on its way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum First {
+    /// Nothing yet.
+    Nothing,
+    /// Something specular.
+    Specular,
+    /// A rough surface that focuses.
+    Glossy {
+        /// Whether a matte surface has followed.
+        then_matte: bool,
+    },
+    /// Another surface.
+    Diffuse,
+}
+
+/// A light path at a surface that is not specular.
 #[derive(Debug, Clone, Copy)]
 pub struct Arrival<'a> {
+    /// What it met before, and first.
+    pub first: First,
     /// Where it is.
     pub surface: &'a Surface,
     /// How light scatters there.
@@ -64,7 +82,7 @@ pub struct Arrival<'a> {
 pub trait Collector {
     /// A path leaves its light.
     fn leave<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start);
-    /// A path is at a diffuse surface, in a way that light paths own.
+    /// A path is at a surface that is not specular, in a way that light paths own.
     fn arrive<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start, arrival: Arrival);
 }
 
@@ -107,62 +125,90 @@ impl LightTracer<'_> {
         let ray = Ray { origin, direction: emission.direction };
         let mut walk = Walk::start(scene, workspace, ray, (hero, self.parting), (sobol, index));
         collector.leave::<INTERIORS>(&mut walk, &start);
-        self.follow::<DISPERSION, INTERIORS>(&mut walk, &start, false, collector);
+        self.follow::<DISPERSION, INTERIORS>(&mut walk, &start, First::Nothing, collector);
     }
 
-    /// Follows a path from surface to surface. `focused` is whether something specular came before the first diffuse one.
+    /// Follows a path from surface to surface.
     fn follow<const DISPERSION: bool, const INTERIORS: bool>(
         &self,
         walk: &mut Walk,
         start: &Start,
-        mut focused: bool,
+        mut first: First,
         collector: &mut impl Collector,
     ) {
-        let local = self.scene.lights[start.light as usize].is_local();
-        let mut diffused = false;
         while walk.depth < self.max_depth {
             let Some(surface) = walk.advance::<INTERIORS>() else { break };
             let object = &self.scene.objects[surface.object as usize];
             let u = walk.random();
-            if let Material::Dielectric { medium } = object.material {
+            let parted = if let Material::Dielectric { medium, alpha: 0.0 } = object.material {
                 match walk.meet_dielectric::<DISPERSION>(&surface, medium, u[2]) {
                     Crossing::Passed => continue,
                     Crossing::Ended => break,
-                    Crossing::Scattered => focused |= !diffused,
-                    Crossing::Parted(ways) => {
-                        for way in 0..ways {
-                            if walk.set_out(way) {
-                                self.follow::<DISPERSION, INTERIORS>(walk, start, true, collector);
-                            }
-                        }
-                        break;
-                    }
+                    Crossing::Scattered => None,
+                    Crossing::Parted(ways) => Some(ways),
                 }
             } else {
-                let Some((bsdf, frame)) = walk.bsdf::<INTERIORS>(object, &surface) else { break };
-                if bsdf.is_specular() {
-                    focused |= !diffused;
-                } else {
-                    if !self.caustics_only || focused || (local && diffused) {
-                        let arrival = Arrival { surface: &surface, bsdf: &bsdf, frame: &frame, u: [u[4], u[5]] };
+                let (bsdf, frame) = match walk.meet::<INTERIORS>(object, &surface) {
+                    Met::Scatterer(bsdf, frame) => (bsdf, frame),
+                    Met::Nothing => continue,
+                    Met::Black => break,
+                };
+                if !bsdf.is_specular() {
+                    let arrival = Arrival { first, surface: &surface, bsdf: &bsdf, frame: &frame, u: [u[4], u[5]] };
+                    if self.owns(start, &arrival) {
                         collector.arrive::<INTERIORS>(walk, start, arrival);
-                    } else if !local {
+                    }
+                    first = match first {
+                        First::Nothing if bsdf.is_rough() && object.material.focuses() => {
+                            First::Glossy { then_matte: false }
+                        }
+                        First::Nothing => First::Diffuse,
+                        First::Glossy { .. } if !bsdf.is_rough() => First::Glossy { then_matte: true },
+                        _ => first,
+                    };
+                    // What is lit directly belongs to camera paths, and all that follows from it.
+                    let local = self.scene.lights[start.light as usize].is_local();
+                    if self.caustics_only && first == First::Diffuse && !local {
                         break;
                     }
-                    diffused = true;
-                    if !walk.diffused() {
+                    if !bsdf.is_rough() && !walk.diffused() {
                         break;
                     }
                 }
                 walk.throughput *= adjoint(&frame, -walk.ray.direction);
-                if bounce(walk, &surface, &bsdf, &frame.without_shading(), [u[0], u[1]]).is_none() {
-                    break;
+                match walk.bounce(&surface, &bsdf, &frame.without_shading(), [u[0], u[1], u[2]]) {
+                    Bounce::Ended => break,
+                    Bounce::Along(_) => None,
+                    Bounce::Parted(ways) => Some(ways),
                 }
+            };
+            if first == First::Nothing {
+                first = First::Specular;
+            }
+            if let Some(ways) = parted {
+                for way in 0..ways {
+                    if walk.set_out(way) {
+                        self.follow::<DISPERSION, INTERIORS>(walk, start, first, collector);
+                    }
+                }
+                break;
             }
             if !walk.survives(u[3]) {
                 break;
             }
         }
+    }
+
+    /// Whether light paths find what arrives, by the table of [`super::techniques`].
+    fn owns(&self, start: &Start, arrival: &Arrival) -> bool {
+        let local = self.scene.lights[start.light as usize].is_local();
+        !self.caustics_only
+            || match arrival.first {
+                First::Nothing => false,
+                First::Specular => true,
+                First::Glossy { then_matte } => local || then_matte || !arrival.bsdf.is_rough(),
+                First::Diffuse => local,
+            }
     }
 }
 
@@ -192,7 +238,7 @@ pub struct Splatter<'a> {
     /// Light and guided numbers of the last path that left one.
     pub start: Option<(u32, [f32; 2])>,
     /// Of the path under way: see [`Techniques::light_path_density`].
-    density: Option<f32>,
+    density: Option<LightPathDensity>,
     weights: [SampledSpectrum; 3],
 }
 
@@ -233,7 +279,7 @@ impl<'a> Splatter<'a> {
             shading: from.normal,
             object: u32::MAX,
         };
-        if let Some(transmittance) = walk.visibility::<INTERIORS>(&surface, to_camera, Some(seen.lens)) {
+        if let Some(transmittance) = walk.visibility::<INTERIORS>(&surface, to_camera, Some(seen.lens), false) {
             self.deposit(scene, seen.film, start.spectrum * transmittance * (per_area * cos * seen.importance));
         }
     }
@@ -251,7 +297,7 @@ impl Collector for Splatter<'_> {
 
     /// What the camera sees of the light that a path brings to a diffuse surface.
     fn arrive<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start, arrival: Arrival) {
-        let Arrival { surface, bsdf, frame, u } = arrival;
+        let Arrival { surface, bsdf, frame, u, .. } = arrival;
         let scene = walk.scene;
         let Some(seen) = scene.camera.connect(surface.point, u, self.filter.radius()) else { return };
         let wi = (seen.lens - surface.point).normalize_or_zero();
@@ -260,10 +306,34 @@ impl Collector for Splatter<'_> {
         if reflected.is_zero() {
             return;
         }
-        let Some(transmittance) = walk.visibility::<INTERIORS>(surface, wi, Some(seen.lens)) else { return };
-        let camera = camera_density(scene, surface, wi);
-        let weight = self.density.map_or(1.0, |light| balance_heuristic(light, camera));
+        let crosses = !frame.same_side(wo, wi);
+        let Some(transmittance) = walk.visibility::<INTERIORS>(surface, wi, Some(seen.lens), crosses) else { return };
         let radiance = start.power * walk.throughput * reflected * transmittance;
+        let weight = self.weight(scene, &arrival, (wo, wi));
         self.deposit(scene, seen.film, radiance * (weight * seen.importance));
+    }
+}
+
+impl Splatter<'_> {
+    /// Weight of a light path that has come along -`wo` against the camera path that comes along -`wi`.
+    fn weight(
+        &self,
+        scene: &Scene,
+        Arrival { first, surface, bsdf, frame, .. }: &Arrival,
+        (wo, wi): (Vec3, Vec3),
+    ) -> SampledSpectrum {
+        let (First::Specular, Some(density)) = (first, self.density) else { return SampledSpectrum::ONE };
+        if !bsdf.is_rough() {
+            return SampledSpectrum::splat(balance_heuristic(density.matte(), camera_density(scene, surface, wi)));
+        }
+        let camera = match bsdf {
+            Bsdf::RoughDielectric(boundary) => {
+                let (reversed, frame) = boundary.reversed(frame, !frame.same_side(wo, wi));
+                rough_camera_density(scene, surface, &Bsdf::RoughDielectric(reversed), &frame, (wi, wo))
+            }
+            _ => rough_camera_density(scene, surface, bsdf, frame, (wi, wo)),
+        };
+        let camera = camera.lanes();
+        SampledSpectrum::from_fn(|lane| balance_heuristic(density.0, camera[lane]))
     }
 }

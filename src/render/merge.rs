@@ -5,9 +5,12 @@
 //! nothing is blurred in wavelength. The radius shrinks from pass to pass: the mean of all passes converges, with an error
 //! that is in part a blur by the radius.
 
-use super::light::{Arrival, Collector, LightTracer, Start};
+use super::light::{Arrival, Collector, First, LightTracer, Start};
+use super::passes::{tile_pixels, tiles};
+use super::scatter::{Bounce, Met};
+use super::techniques::Techniques;
 use super::walk::{Crossing, Parting, Walk};
-use super::{Renderer, bounce, path, tile_pixels, tiles};
+use super::{Renderer, path};
 use crate::bsdf::{Bsdf, Indices, Lanes};
 use crate::film::{Film, LIGHT_REPLICATES, Splat};
 use crate::geometry::Frame;
@@ -24,6 +27,8 @@ use super::workspace::{Counters, Workspace};
 const FIRST_RADIUS_PIXELS: f32 = 3.0;
 /// Speed of shrinking: r²ᵢ₊₁ = r²ᵢ (i + α) / (i + 1).
 const ALPHA: f64 = 2.0 / 3.0;
+/// The blur of the mean over passes falls with r², and so with their number to this power.
+pub const BLUR_DECAY: f64 = 1.0 - ALPHA;
 /// Camera paths that look for surfaces to merge on before the first pass, along each side of the picture.
 const PROBES: u32 = 96;
 /// Share of the pixels without such a surface so far that are looked at again in a pass.
@@ -60,6 +65,11 @@ impl Collector for PhotonCollector {
     fn leave<const INTERIORS: bool>(&mut self, _: &mut Walk, _: &Start) {}
 
     fn arrive<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start, arrival: Arrival) {
+        // On rough surfaces camera paths find all that they can.
+        let has_extent = walk.scene.lights[start.light as usize].has_extent();
+        if arrival.bsdf.is_rough() && (arrival.first != First::Specular || has_extent) {
+            return;
+        }
         self.photons.push(Photon {
             position: arrival.surface.point,
             normal: arrival.frame.geometric.as_vec3(),
@@ -74,16 +84,18 @@ impl Collector for PhotonCollector {
     }
 }
 
-/// A diffuse surface that a camera path has reached along specular ones.
+/// A surface that is not specular and that a camera path has reached along specular ones.
 struct Vertex<'a> {
     surface: &'a Surface,
     bsdf: &'a Bsdf,
     frame: &'a Frame,
 }
 
-/// Follows specular surfaces to the first diffuse one, along every way that lanes take; those seen directly are not visited.
+/// Follows specular surfaces to the first other one, along every way that lanes take; those seen directly are not visited,
+/// nor rough ones where there is nothing to merge.
 fn follow_specular<const DISPERSION: bool, const INTERIORS: bool>(
     walk: &mut Walk,
+    techniques: &Techniques,
     max_depth: u32,
     visit: &mut impl FnMut(&mut Walk, Vertex),
 ) {
@@ -93,7 +105,7 @@ fn follow_specular<const DISPERSION: bool, const INTERIORS: bool>(
         }
         let object = &walk.scene.objects[surface.object as usize];
         let u = walk.random();
-        if let Material::Dielectric { medium } = object.material {
+        if let Material::Dielectric { medium, alpha: 0.0 } = object.material {
             match walk.meet_dielectric::<DISPERSION>(&surface, medium, u[2]) {
                 Crossing::Passed => continue,
                 Crossing::Scattered => {}
@@ -101,21 +113,25 @@ fn follow_specular<const DISPERSION: bool, const INTERIORS: bool>(
                 Crossing::Parted(ways) => {
                     for way in 0..ways {
                         if walk.set_out(way) {
-                            follow_specular::<DISPERSION, INTERIORS>(walk, max_depth, visit);
+                            follow_specular::<DISPERSION, INTERIORS>(walk, techniques, max_depth, visit);
                         }
                     }
                     return;
                 }
             }
         } else {
-            let Some((bsdf, frame)) = walk.bsdf::<INTERIORS>(object, &surface) else { return };
+            let (bsdf, frame) = match walk.meet::<INTERIORS>(object, &surface) {
+                Met::Scatterer(bsdf, frame) => (bsdf, frame),
+                Met::Nothing => continue,
+                Met::Black => return,
+            };
             if !bsdf.is_specular() {
-                if walk.depth > 0 {
+                if walk.depth > 0 && (!bsdf.is_rough() || techniques.merges_on_rough(walk.scene)) {
                     visit(walk, Vertex { surface: &surface, bsdf: &bsdf, frame: &frame });
                 }
                 return;
             }
-            if bounce(walk, &surface, &bsdf, &frame, [u[0], u[1]]).is_none() {
+            if walk.bounce(&surface, &bsdf, &frame, [u[0], u[1], u[2]]) == Bounce::Ended {
                 return;
             }
         }
@@ -277,7 +293,8 @@ impl<const DISPERSION: bool, const INTERIORS: bool> Renderer<'_, DISPERSION, INT
         let u = sobol.group(pass, 0);
         let mut walk = self.camera_walk(workspace, pixel, wavelengths, u, (sobol, pass));
         let camera_indices = if INTERIORS { Some(path::medium_indices(&mut walk)) } else { None };
-        follow_specular::<DISPERSION, INTERIORS>(&mut walk, self.settings.max_depth, &mut |walk, vertex| {
+        let (techniques, max_depth) = (&self.plan.techniques, self.settings.max_depth);
+        follow_specular::<DISPERSION, INTERIORS>(&mut walk, techniques, max_depth, &mut |walk, vertex| {
             visit(walk, vertex, &camera_indices);
         });
     }
@@ -307,18 +324,27 @@ impl PhotonMap {
         let mut sum = SampledSpectrum::ZERO;
         self.near(vertex.surface.point, |photon, distance2| {
             let other_lane = matches!((photon.lane, own_lane), (Some(a), Some(b)) if a != b);
+            // Through a rough boundary light comes from its other side.
+            let through = match vertex.bsdf {
+                Bsdf::RoughDielectric(boundary) if photon.normal.dot(normal) < 0.0 => Some(boundary),
+                _ => None,
+            };
+            let side = if through.is_some() { -normal } else { normal };
             if other_lane
                 || walk.depth + 1 + photon.depth > max_depth
-                || !photon.lies_on(vertex.surface.point, normal, self.radius())
+                || !photon.lies_on(vertex.surface.point, side, self.radius())
             {
                 return;
             }
             // `eval` holds the cosine to the shading normal; photons arrive by the geometric one.
-            let cos = normal.dot(photon.wi);
+            let cos = side.dot(photon.wi);
             if cos <= 0.0 {
                 return;
             }
-            let f = vertex.bsdf.eval(vertex.frame, wo, photon.wi) * (1.0 / cos);
+            let mut f = vertex.bsdf.eval(vertex.frame, wo, photon.wi) * (1.0 / cos);
+            if let Some(boundary) = through {
+                f *= boundary.radiance_change(true);
+            }
             sum += f * SampledSpectrum::new(photon.power) * (1.0 - distance2 / (self.radius() * self.radius()));
         });
         sum * (FRAC_2_PI / (self.radius() * self.radius() * self.paths() as f32))

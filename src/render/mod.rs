@@ -1,43 +1,58 @@
 //! The driver: splits a picture into pieces of work that any number of threads can do in any order with the same bits,
 //! and the light transport techniques, one file each.
 
+mod adaptive;
 mod allocation;
 mod baseline;
 mod guide;
 mod light;
 mod merge;
+mod passes;
 mod path;
 mod photons;
 mod pilot;
 mod plan;
+mod profile;
+mod scatter;
+mod schedule;
+mod stopping;
 mod techniques;
 mod walk;
 mod workspace;
 
-pub use plan::Decisions;
+pub use plan::{Decisions, blind_spot};
+pub use profile::{Phase, Profile, TimedRays};
 pub use workspace::Counters;
 
-use crate::bsdf::{Bsdf, BsdfSample};
 use crate::color::Observer;
-use crate::film::{CAMERA_REPLICATES, Film, LIGHT_REPLICATES, PixelSums, Sensor, Splat};
-use crate::geometry::Frame;
-use crate::sampling::{DIMENSIONS, Sobol, mix};
-use crate::scene::{FilmSettings, RenderSettings, Scene, SceneFeatures, Surface};
-use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, LANES, SampledSpectrum, Wavelengths};
-use allocation::{Allocation, Spent, segment_end};
-use light::{LightTracer, Splatter};
-use merge::MergeState;
+use crate::film::{Film, Sensor};
+use crate::scene::{FilmSettings, RenderSettings, Scene, SceneFeatures};
+use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM};
+use adaptive::Adaptive;
+use allocation::{Allocation, Spent};
+use merge::{BLUR_DECAY, MergeState};
 use plan::Plan;
-use rayon::prelude::*;
-use std::ops::Range;
+use schedule::{Segment, Work, segment_end};
 use std::time::Instant;
+use stopping::{error_bound, next_look};
 use techniques::Techniques;
-use walk::{Parting, Walk};
-use workspace::Workspace;
+
+/// A render and what is known of it.
+#[derive(Debug, Clone)]
+pub struct Rendering {
+    /// The picture.
+    pub film: Film,
+    /// What was done.
+    pub statistics: Statistics,
+    /// Where the time went.
+    pub profile: Profile,
+}
 
 /// What a render did.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Statistics {
+    /// Samples of each pixel, on average: asking for so many gives the same picture, whatever stopped this one.
+    pub samples: u64,
     /// Camera paths traced.
     pub camera_paths: u64,
     /// Light paths traced, those of merging aside.
@@ -48,7 +63,9 @@ pub struct Statistics {
     pub decisions: Decisions,
     /// Rays and mishaps.
     pub counters: Counters,
-    /// Whether all samples asked for were taken.
+    /// An upper bound of the relMSE of the picture, exceeded in 5 renders of 100. `None` if nothing is known of it.
+    pub error_bound: Option<f64>,
+    /// Whether the render ended by itself: with all samples, at the target error, or at the deadline.
     pub complete: bool,
 }
 
@@ -61,28 +78,28 @@ pub struct Progress {
     pub of: u64,
     /// Rays traced so far.
     pub rays: u64,
+    /// The last bound of the relMSE, if there is a target for it.
+    pub error_bound: Option<f64>,
 }
 
-/// Edge of a tile in pixels.
-const TILE: u32 = 16;
-/// Light paths in a block.
-const BLOCK: u64 = 4096;
-/// Blocks that are traced before their splats go to the film, in order.
-const BLOCKS_AT_ONCE: u64 = 32;
 /// Seconds that a pass should take: passes are how often progress is told and interruption looked for.
 const SECONDS_PER_PASS: f64 = 0.3;
+/// Seconds that count for a pass that takes less.
+const SHORTEST_PASS: f64 = 0.001;
 
 /// Renders a scene. `proceed` is called between passes and stops the render by returning `false`; what has been done by
 /// then is a picture of fewer samples.
 ///
-/// The film's bits depend on the scene, the settings and the number of samples alone, not on threads or passes.
+/// The film's bits depend on the scene, the settings and the number of samples alone, not on threads or passes. Where a
+/// clock or a target error stops the render, that number is told, and is all that depends on the clock (a render asked for
+/// fewer than 32 samples spares the pilot, and is another).
 pub fn render(
     scene: &Scene,
     settings: &RenderSettings,
     film: &FilmSettings,
     features: SceneFeatures,
     proceed: &mut dyn FnMut(Progress) -> bool,
-) -> (Film, Statistics) {
+) -> Rendering {
     // Everything that the scene needs is on, whatever is asked for; more changes no bit.
     let needed = scene.features;
     match (features.dispersion || needed.dispersion, features.interiors || needed.interiors) {
@@ -96,27 +113,26 @@ pub fn render(
 /// How far a render is.
 #[derive(Default)]
 struct RenderState {
-    /// Samples of each pixel.
-    samples: u64,
-    /// Blocks of light paths.
-    light_blocks: u64,
-    /// Passes of merging.
-    merge_passes: u64,
+    done: Work,
     segment: Segment,
+    adaptive: Option<Adaptive>,
     merging: MergeState,
     spent: Spent,
-    /// Samples of a pass.
+    /// Samples of a pass, and what one of them takes in seconds.
     at_once: u64,
+    seconds_per_sample: f64,
+    error_bound: Option<f64>,
+    looks: u64,
+    counters: Counters,
+    profile: Profile,
 }
 
-/// A stretch of a render with one split of the work.
-#[derive(Clone, Default)]
-struct Segment {
-    samples: Range<u64>,
-    light_blocks: Range<u64>,
-    /// What each light path counts.
-    light_weight: f64,
-    merge_passes: Range<u64>,
+/// Why a segment ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ending {
+    Done,
+    Deadline,
+    Interrupted,
 }
 
 struct Renderer<'a, const DISPERSION: bool, const INTERIORS: bool> {
@@ -143,270 +159,177 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
     }
 
     /// Plans, then renders.
-    fn run(mut self, proceed: &mut dyn FnMut(Progress) -> bool) -> (Film, Statistics) {
-        let mut counters = Counters::default();
+    fn run(mut self, proceed: &mut dyn FnMut(Progress) -> bool) -> Rendering {
+        let mut state = RenderState::default();
+        let started = Instant::now();
         if let Techniques::CameraAndLight { merging, .. } = &mut self.plan.techniques {
             *merging = true;
             let (probed, count) = self.probe_merging();
-            counters.add(count);
+            state.counters.add(count);
             if let Techniques::CameraAndLight { merging, .. } = &mut self.plan.techniques {
                 *merging = probed.is_some();
             }
             self.plan.merging = probed;
         }
         let (renderer, count) = self.piloted();
-        counters.add(count);
-        renderer.render(counters, proceed)
+        state.counters.add(count);
+        state.profile.book(Phase::Pilot, started.elapsed(), state.counters.rays);
+        renderer.render(state, proceed)
     }
 
-    fn render(mut self, pilot: Counters, proceed: &mut dyn FnMut(Progress) -> bool) -> (Film, Statistics) {
+    fn render(mut self, mut state: RenderState, proceed: &mut dyn FnMut(Progress) -> bool) -> Rendering {
         let mut film = Film::new(self.film.width, self.film.height, self.scene.radiance_scale);
-        let mut statistics = Statistics { counters: pilot, ..Statistics::default() };
-        let total = self.settings.samples_per_pixel;
+        let pilot_rays = state.counters.rays;
+        if self.settings.adaptive && !matches!(self.plan.techniques, Techniques::Light { .. }) {
+            state.adaptive = Some(Adaptive::new((self.film.width * self.film.height) as usize));
+        }
         let mut allocation = Allocation::START;
-        let mut state = RenderState::default();
-        while state.samples < total {
-            let end = segment_end(state.samples, total);
-            self.start_segment(&mut state, end, allocation);
-            let complete = self.segment(&mut film, &mut state, &mut statistics.counters, proceed);
-            if !complete {
+        let mut ending = Ending::Done;
+        while ending == Ending::Done && state.done.samples < self.settings.samples_per_pixel {
+            self.start_segment(&mut state, &film, allocation);
+            ending = self.segment(&mut film, &mut state, proceed);
+            let deciding = Instant::now();
+            if self.reaches_target(&film, &mut state) {
                 break;
             }
-            allocation = allocation.next(&film, &state.spent);
-        }
-        statistics.decisions = self.plan.decisions(pilot.rays, allocation);
-        statistics.camera_paths = film.camera_paths();
-        statistics.light_paths = film.light_paths();
-        statistics.photon_paths = state.merge_passes * self.plan.merging.as_ref().map_or(0, |m| m.photon_paths);
-        statistics.complete = state.samples == total;
-        (film, statistics)
-    }
-
-    /// Fixes the split of the work up to sample `end`. Within a segment the numbers of light paths and camera paths are in
-    /// the proportion that their combination reckons with, and the segment counts as its camera samples in the means of both.
-    fn start_segment(&mut self, state: &mut RenderState, end: u64, allocation: Allocation) {
-        let camera_paths = (end - state.samples) * self.scene.camera.pixels();
-        let blocks = match &mut self.plan.techniques {
-            Techniques::Path => 0,
-            Techniques::Light { .. } => block_count(camera_paths),
-            Techniques::CameraAndLight { light_paths_per_camera_path, .. } => {
-                let blocks = block_count((camera_paths as f64 * allocation.light).ceil() as u64);
-                *light_paths_per_camera_path = ((blocks * BLOCK) as f64 / camera_paths as f64) as f32;
-                blocks
-            }
-        };
-        let passes = if self.plan.merging.is_some() { (end - state.samples) as f64 * allocation.merged } else { 0.0 };
-        state.segment = Segment {
-            samples: state.samples..end,
-            light_blocks: state.light_blocks..state.light_blocks + blocks,
-            light_weight: camera_paths as f64 / (blocks * BLOCK).max(1) as f64,
-            merge_passes: state.merge_passes..state.merge_passes + passes.ceil() as u64,
-        };
-    }
-
-    /// Renders a segment in passes; `false` if it was interrupted.
-    fn segment(
-        &self,
-        film: &mut Film,
-        state: &mut RenderState,
-        counters: &mut Counters,
-        proceed: &mut dyn FnMut(Progress) -> bool,
-    ) -> bool {
-        let segment = state.segment.clone();
-        let mut started = Instant::now();
-        while state.samples < segment.samples.end {
-            let next = (state.samples + state.at_once.max(1)).min(segment.samples.end);
-            // Every technique is as far in its part of the segment as camera paths are in theirs.
-            let progress = |range: &Range<u64>| {
-                let part = u128::from(next - segment.samples.start) * u128::from(range.end - range.start);
-                range.start + part.div_ceil(u128::from(segment.samples.end - segment.samples.start)) as u64
-            };
-            let (light_blocks, merge_passes) = (progress(&segment.light_blocks), progress(&segment.merge_passes));
-            if !matches!(self.plan.techniques, Techniques::Light { .. }) {
-                state.spent.camera += counters.count(self.camera_pass(film, state.samples..next));
-            }
-            let light = self.light_pass(film, state.light_blocks..light_blocks, segment.light_weight);
-            state.spent.light += counters.count(light);
-            if let Some(merging) = &self.plan.merging {
-                for pass in state.merge_passes..merge_passes {
-                    let merged = self.merge_pass(merging, film, pass, &mut state.merging);
-                    state.spent.merged += counters.count(merged);
+            if ending == Ending::Done && state.done.samples < self.settings.samples_per_pixel {
+                allocation = allocation.next(&film, &state.spent);
+                film.mark_merged();
+                if state.adaptive.is_some() {
+                    film.close_stage();
                 }
             }
-            (state.samples, state.light_blocks, state.merge_passes) = (next, light_blocks, merge_passes);
-            if !proceed(Progress { samples: next, of: self.settings.samples_per_pixel, rays: counters.rays }) {
-                return false;
+            state.profile.book(Phase::Deciding, deciding.elapsed(), 0);
+        }
+        if self.settings.target_error.is_none() {
+            state.error_bound = film.error_parts(BLUR_DECAY).map(|parts| error_bound(&parts, None));
+        }
+        let statistics = Statistics {
+            samples: state.done.samples,
+            camera_paths: film.camera_paths(),
+            light_paths: film.light_paths(),
+            photon_paths: state.done.merge_passes * self.plan.merging.as_ref().map_or(0, |m| m.photon_paths),
+            decisions: self.plan.decisions(pilot_rays, allocation),
+            counters: state.counters,
+            error_bound: state.error_bound,
+            complete: ending != Ending::Interrupted,
+        };
+        state.profile.intersections = state.counters.timed;
+        Rendering { film, statistics, profile: state.profile }
+    }
+
+    /// Looks at the error, if there is a target for it.
+    fn reaches_target(&self, film: &Film, state: &mut RenderState) -> bool {
+        let Some(target) = self.settings.target_error else { return false };
+        state.looks += 1;
+        state.error_bound = film.error_parts(BLUR_DECAY).map(|parts| error_bound(&parts, Some(state.looks)));
+        state.error_bound.is_some_and(|bound| bound < target)
+    }
+
+    /// Fixes the split of the work up to the end of the next segment.
+    fn start_segment(&mut self, state: &mut RenderState, film: &Film, allocation: Allocation) {
+        let samples = state.done.samples;
+        let mut end = segment_end(samples);
+        if let (Some(target), Some(bound)) = (self.settings.target_error, state.error_bound) {
+            end = next_look(samples, bound / target, end);
+        }
+        let mut split = allocation;
+        match &mut self.plan.techniques {
+            Techniques::Path => split.light = 0.0,
+            Techniques::Light { .. } => split.light = 1.0,
+            Techniques::CameraAndLight { light_paths_per_camera_path, .. } => {
+                *light_paths_per_camera_path = split.light as f32;
             }
+        }
+        if self.plan.merging.is_none() {
+            split.merged = 0.0;
+        }
+        state.segment = Segment::new(state.done, end, self.scene.camera.pixels(), split);
+        if let (Some(adaptive), 1..) = (&mut state.adaptive, samples) {
+            adaptive.start_stage(film, end - samples);
+        }
+    }
+
+    /// Renders a segment in passes, or what of it there is time for.
+    fn segment(&self, film: &mut Film, state: &mut RenderState, proceed: &mut dyn FnMut(Progress) -> bool) -> Ending {
+        let end = state.segment.samples.end.min(self.settings.samples_per_pixel);
+        let mut ending = Ending::Done;
+        while ending == Ending::Done && state.done.samples < end {
+            let started = Instant::now();
+            let samples = state.at_once.clamp(1, end - state.done.samples).min(self.samples_in_time(state));
+            if samples == 0 {
+                ending = Ending::Deadline;
+                break;
+            }
+            let next = state.done.samples + samples;
+            self.passes(film, state, next, next == end);
             // The length of a pass changes no bit: it only decides when to look up.
-            let growth = SECONDS_PER_PASS / started.elapsed().as_secs_f64().max(1e-3);
-            state.at_once = ((state.at_once as f64 * growth.clamp(0.25, 4.0)) as u64).max(1);
-            started = Instant::now();
-        }
-        true
-    }
-
-    /// Takes some samples of every pixel.
-    fn camera_pass(&self, film: &mut Film, samples: Range<u64>) -> Counters {
-        let (width, height) = (self.film.width, self.film.height);
-        // Tiles borrow their rows from the film: each works on a copy of its pixels.
-        let all = film.camera_mut();
-        let stream = (mix(self.settings.seed), self.plan.camera_parting);
-        let results: Vec<(Vec<PixelSums>, Counters, u64)> = tiles(self.film)
-            .into_par_iter()
-            .map_init(
-                || Workspace::new(self.scene),
-                |workspace, tile| {
-                    workspace.counters = Counters::default();
-                    let mut non_finite = 0;
-                    let sums = tile_pixels(tile, width, height)
-                        .map(|pixel| {
-                            let mut sums = all[pixel as usize];
-                            for sample in samples.clone() {
-                                non_finite +=
-                                    u64::from(!self.camera_sample(workspace, pixel, sample, stream, &mut sums));
-                            }
-                            sums
-                        })
-                        .collect();
-                    (sums, workspace.counters, non_finite)
-                },
-            )
-            .collect();
-        let mut counters = Counters::default();
-        let mut non_finite = 0;
-        let all = film.camera_mut();
-        for (tile, (sums, count, lost)) in results.into_iter().enumerate() {
-            for (pixel, sums) in tile_pixels(tile as u32, width, height).zip(sums) {
-                all[pixel as usize] = sums;
-            }
-            counters.add(count);
-            non_finite += lost;
-        }
-        film.non_finite_samples += non_finite;
-        counters
-    }
-
-    /// One camera path of the sequences of a seed; `false` if its radiance was not finite.
-    fn camera_sample(
-        &self,
-        workspace: &mut Workspace,
-        pixel: u32,
-        sample: u64,
-        (seed, parting): (u64, Parting),
-        sums: &mut PixelSums,
-    ) -> bool {
-        let replicate = (sample % CAMERA_REPLICATES as u64) as usize;
-        let index = sample / CAMERA_REPLICATES as u64;
-        let sobol = Sobol::new(seed ^ (u64::from(pixel) << 8 | replicate as u64));
-        let u = sobol.group(index, 0);
-        let baseline = parting == Parting::Terminate;
-        let wavelengths = if baseline { baseline::wavelengths(u[2]) } else { self.scene.wavelengths.sample(u[2]) };
-        let mut walk = self.camera_walk(workspace, pixel, wavelengths, u, (sobol, index));
-        walk.parting = parting;
-        if baseline {
-            (walk.hero, walk.throughput) = (0, baseline::throughput());
-        }
-        let radiance =
-            path::radiance::<DISPERSION, INTERIORS>(&mut walk, &self.plan.techniques, self.settings.max_depth);
-        sums.add_sample(replicate, self.xyz(&wavelengths, radiance))
-    }
-
-    /// The start of a camera path. Pixel, wavelengths and lens share the first group of random numbers.
-    fn camera_walk<'w>(
-        &self,
-        workspace: &'w mut Workspace,
-        pixel: u32,
-        wavelengths: Wavelengths,
-        u: [f32; DIMENSIONS],
-        random: (Sobol, u64),
-    ) -> Walk<'w>
-    where
-        'a: 'w,
-    {
-        let [dx, dy] = self.film.filter.sample([u[0], u[1]]);
-        let (x, y) = (pixel % self.film.width, pixel / self.film.width);
-        let ray = self.scene.camera.ray([x as f32 + 0.5 + dx, y as f32 + 0.5 + dy], [u[3], u[4]]);
-        let hero = (u[5] * LANES as f32) as usize;
-        workspace.spectra.begin(wavelengths);
-        if INTERIORS {
-            match &self.camera_interiors {
-                Some(interiors) => workspace.interiors.reset(interiors),
-                None => workspace.interiors.reset(&self.scene.interiors_at(ray.origin)),
+            let seconds = started.elapsed().as_secs_f64();
+            let growth = SECONDS_PER_PASS / seconds.max(SHORTEST_PASS);
+            state.at_once = ((samples as f64 * growth.clamp(0.25, 4.0)) as u64).max(1);
+            state.seconds_per_sample = seconds / samples as f64;
+            let progress = Progress {
+                samples: next,
+                of: self.settings.samples_per_pixel,
+                rays: state.counters.rays,
+                error_bound: state.error_bound,
+            };
+            if !proceed(progress) {
+                ending = Ending::Interrupted;
             }
         }
-        Walk::start(self.scene, workspace, ray, (hero, self.plan.camera_parting), random)
+        if state.done.samples < end {
+            self.passes(film, state, state.done.samples, true);
+        }
+        ending
     }
 
-    fn xyz(&self, wavelengths: &Wavelengths, radiance: SampledSpectrum) -> [f64; 3] {
-        if radiance.is_zero() { [0.0; 3] } else { Sensor::xyz(&self.sensor.weights(wavelengths), radiance) }
-    }
-
-    /// How light paths are traced, by the plan.
-    fn light_tracer(&self) -> LightTracer<'_> {
-        let techniques = &self.plan.techniques;
-        LightTracer {
-            scene: self.scene,
-            guide: techniques.guide().expect("a plan with light paths"),
-            caustics_only: !matches!(techniques, Techniques::Light { .. }),
-            parting: self.plan.light_parting,
-            max_depth: self.settings.max_depth,
+    /// Samples for which there is time until the deadline; one at least where none has been taken yet.
+    fn samples_in_time(&self, state: &RenderState) -> u64 {
+        let Some(deadline) = self.settings.deadline else { return u64::MAX };
+        let left = deadline.saturating_duration_since(Instant::now()).as_secs_f64();
+        match state.seconds_per_sample {
+            0.0 => 1,
+            seconds => (left / seconds).round() as u64,
         }
     }
 
-    /// Traces some blocks of light paths. Splats reach the film in the order of the blocks.
-    fn light_pass(&self, film: &mut Film, blocks: Range<u64>, weight: f64) -> Counters {
-        let mut counters = Counters::default();
-        let mut start = blocks.start;
-        while start < blocks.end {
-            let end = (start + BLOCKS_AT_ONCE).min(blocks.end);
-            let results: Vec<(Vec<Splat>, Counters)> = (start..end)
-                .into_par_iter()
-                .map_init(|| Workspace::new(self.scene), |workspace, block| self.light_block(workspace, block))
-                .collect();
-            for (block, (splats, count)) in (start..end).zip(results) {
-                film.add_splats((block % LIGHT_REPLICATES as u64) as usize, BLOCK, weight, &splats);
-                counters.add(count);
+    /// The work of all techniques up to `samples`. Light paths come in whole blocks, the rest of which is traced where the
+    /// film is to be `exact`: at the end of a segment, and wherever a render stops.
+    fn passes(&self, film: &mut Film, state: &mut RenderState, samples: u64, exact: bool) {
+        let done = state.done;
+        let mut next = state.segment.work(samples);
+        if !exact {
+            next.light_paths = (next.light_paths / passes::BLOCK * passes::BLOCK).max(done.light_paths);
+        }
+        let camera = !matches!(self.plan.techniques, Techniques::Light { .. });
+        if camera && samples > done.samples {
+            let started = Instant::now();
+            let count = self.camera_pass(film, done.samples..samples, &state.segment, &mut state.adaptive);
+            film.weigh_open_stage(state.segment.taken(samples) as f64);
+            state.spent.camera += state.book(Phase::Camera, started, count);
+        }
+        let started = Instant::now();
+        let count = self.light_pass(film, done.light_paths..next.light_paths, state.segment.light_weight);
+        state.spent.light += state.book(Phase::Light, started, count);
+        if let Some(merging) = &self.plan.merging {
+            for pass in done.merge_passes..next.merge_passes {
+                let started = Instant::now();
+                let count = self.merge_pass(merging, film, pass, &mut state.merging);
+                state.spent.merged += state.book(Phase::Merging, started, count);
             }
-            start = end;
         }
-        counters
-    }
-
-    fn light_block(&self, workspace: &mut Workspace, block: u64) -> (Vec<Splat>, Counters) {
-        workspace.counters = Counters::default();
-        let replicate = block % LIGHT_REPLICATES as u64;
-        // Pixels number fewer than 2⁵⁶: their sequences are others.
-        let sobol = Sobol::new(mix(self.settings.seed) ^ (u64::MAX - replicate));
-        let tracer = self.light_tracer();
-        let mut splatter = Splatter::new(&self.sensor, &self.film.filter, &self.plan.techniques);
-        for index in self::block(block / LIGHT_REPLICATES as u64) {
-            tracer.trace::<DISPERSION, INTERIORS>(workspace, (sobol, index), None, &mut splatter);
-        }
-        (splatter.splats, workspace.counters)
+        state.done = next;
     }
 }
 
-/// Blocks that hold so many light paths.
-fn block_count(paths: u64) -> u64 {
-    paths.div_ceil(BLOCK)
-}
-
-/// Indices of the light paths of a block.
-fn block(block: u64) -> Range<u64> {
-    block * BLOCK..(block + 1) * BLOCK
-}
-
-/// All tiles of a picture.
-fn tiles(film: &FilmSettings) -> Range<u32> {
-    0..film.width.div_ceil(TILE) * film.height.div_ceil(TILE)
-}
-
-/// The pixels of a tile, row by row.
-fn tile_pixels(tile: u32, width: u32, height: u32) -> impl Iterator<Item = u32> {
-    let tiles_across = width.div_ceil(TILE);
-    let (x0, y0) = (tile % tiles_across * TILE, tile / tiles_across * TILE);
-    let (x1, y1) = ((x0 + TILE).min(width), (y0 + TILE).min(height));
-    (y0..y1).flat_map(move |y| (x0..x1).map(move |x| y * width + x))
+impl RenderState {
+    /// Books the time since `started` and the rays of some work, and tells the rays.
+    fn book(&mut self, phase: Phase, started: Instant, count: Counters) -> u64 {
+        self.counters.add(count);
+        self.profile.book(phase, started.elapsed(), count.rays);
+        count.rays
+    }
 }
 
 /// The CIE 1931 observer.
@@ -415,13 +338,4 @@ fn standard_sensor() -> Sensor {
     let matching: Vec<[f64; 3]> =
         (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(|l| observer.eval(f64::from(l)).to_array()).collect();
     Sensor::new(LAMBDA_MIN_NM, &matching)
-}
-
-/// Scatters a path at an opaque surface.
-fn bounce(walk: &mut Walk, surface: &Surface, bsdf: &Bsdf, frame: &Frame, u: [f32; 2]) -> Option<BsdfSample> {
-    let sample = bsdf.sample(frame, -walk.ray.direction, u)?;
-    walk.throughput *= sample.weight;
-    walk.ray = surface.spawn(sample.wi);
-    walk.depth += 1;
-    Some(sample)
 }

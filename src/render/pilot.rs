@@ -1,13 +1,14 @@
 //! A short render, thrown away, from which the plan learns: how many lanes are worth following, and where light paths
 //! start.
 
+use super::Renderer;
 use super::guide::Experience;
 use super::light::{LightTracer, Splatter};
+use super::passes::{block, block_count};
 use super::plan::Plan;
 use super::techniques::Techniques;
 use super::walk::Parting;
 use super::workspace::{Counters, Workspace};
-use super::{Renderer, block_count};
 use crate::film::{Filter, PixelSums, Xyz};
 use crate::sampling::{Sobol, mix};
 use rayon::prelude::*;
@@ -158,19 +159,18 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
     }
 
     fn light_trial(&self, ways: u8) -> LightTrial {
-        let wanted = self.settings.samples_per_pixel * self.scene.camera.pixels() / 64;
-        let blocks = block_count(wanted.clamp(1, LIGHT_PATHS));
+        let blocks = block_count((self.scene.camera.pixels() / 2).clamp(1, LIGHT_PATHS));
         let filter = Filter::boxed(0.5);
         let sobol = Sobol::new(mix(self.pilot_seed() ^ u64::from(ways)));
         let results: Vec<(Vec<LightTrialPath>, u64)> = (0..blocks)
             .into_par_iter()
             .map_init(
                 || Workspace::new(self.scene),
-                |workspace, block| {
+                |workspace, index| {
                     workspace.counters = Counters::default();
                     let tracer = LightTracer { parting: Parting::Ways(ways), ..self.light_tracer() };
                     let mut splatter = Splatter::new(&self.sensor, &filter, &self.plan.techniques);
-                    let paths = super::block(block)
+                    let paths = block(index)
                         .filter_map(|index| {
                             splatter.start = None;
                             tracer.trace::<DISPERSION, INTERIORS>(workspace, (sobol, index), None, &mut splatter);

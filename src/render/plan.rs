@@ -95,6 +95,25 @@ fn every_light(scene: &Scene) -> AliasTable {
     AliasTable::new(&scene.lights.iter().enumerate().map(weight).collect::<Vec<_>>())
 }
 
+/// What a technique cannot see of a scene, if there may be anything: its error then says nothing of what it misses.
+pub fn blind_spot(scene: &Scene, integrator: Integrator) -> Option<&'static str> {
+    let without_extent = |light: &Light| match light.kind {
+        LightKind::Point { .. } | LightKind::Spot { .. } | LightKind::Beam { .. } => true,
+        LightKind::Directional { one_minus_cos, .. } => one_minus_cos == 0.0,
+        LightKind::Area { .. } | LightKind::Environment => false,
+    };
+    let focuses = scene.caustic_aim.is_some();
+    match integrator {
+        Integrator::Path | Integrator::Hero if focuses && scene.lights.iter().any(without_extent) => {
+            Some("camera paths never meet lights without extent, so they miss their caustics")
+        }
+        Integrator::Light if focuses || !scene.infinite_lights.is_empty() => {
+            Some("light paths miss what the camera sees in mirrors and through glass, and lights at infinity")
+        }
+        _ => None,
+    }
+}
+
 impl fmt::Display for Decisions {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "plan: {} of {LANES} lanes go on where they part", self.camera_ways)?;

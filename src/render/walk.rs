@@ -1,11 +1,11 @@
 //! What camera paths and light paths have in common: a ray that carries lanes through surfaces and media.
 
 use super::workspace::{Interiors, Workspace};
-use crate::bsdf::{Bsdf, Conductor, Dielectric, Diffuse, Incidence, Lanes, Mirror};
-use crate::geometry::{Frame, Ray};
+use crate::bsdf::{Dielectric, Incidence, Lanes};
+use crate::geometry::Ray;
 use crate::optics;
 use crate::sampling::{DIMENSIONS, Sobol};
-use crate::scene::{Material, MediumId, Object, Scene, Surface};
+use crate::scene::{MediumId, Scene, Surface};
 use crate::spectrum::{LANES, SampledSpectrum};
 use glam::Vec3;
 
@@ -32,11 +32,14 @@ pub struct Walk<'a> {
     pub ray: Ray,
     /// Flux that the path carries, in units of what it started with.
     pub throughput: SampledSpectrum,
-    /// Whether lanes still share the ray. Changed where they part, in [`Self::meet_dielectric`] and [`Self::set_out`], and
-    /// where one of them stands for all from then on, in [`Self::diffused`].
+    /// Whether lanes still share the ray. Changed where they part, in [`Self::meet_dielectric`], [`Self::bounce`] and
+    /// [`Self::set_out`], and where one of them stands for all from then on, in [`Self::diffused`].
     pub lanes: Lanes,
-    /// The lane that goes on where only one does.
+    /// The lane that goes on where only one does, and that draws directions for all where each would draw its own.
     pub hero: usize,
+    /// Number of lanes times the probability of each to be the hero, given the path so far: 1 until the hero draws
+    /// directions, see [`crate::bsdf::RoughDielectric`].
+    pub odds: SampledSpectrum,
     /// What happens where lanes part.
     pub parting: Parting,
     /// Scattering events so far.
@@ -65,7 +68,9 @@ pub enum Parting {
 pub struct Bundle {
     surface: Option<Surface>,
     /// Directions of the lanes that are not reflected totally.
-    directions: [Option<Vec3>; LANES],
+    pub directions: [Option<Vec3>; LANES],
+    /// Densities of the directions, if they are not deltas.
+    pub own_pdf: Option<[f32; LANES]>,
     throughput: [f32; LANES],
     hero: usize,
     ways: u8,
@@ -97,8 +102,8 @@ impl<'a> Walk<'a> {
         (hero, parting): (usize, Parting),
         (sobol, index): (Sobol, u64),
     ) -> Self {
-        let (throughput, lanes) = (SampledSpectrum::ONE, Lanes::Shared);
-        Self { scene, workspace, ray, throughput, lanes, hero, parting, depth: 0, passed: 0, sobol, index }
+        let (throughput, odds, lanes) = (SampledSpectrum::ONE, SampledSpectrum::ONE, Lanes::Shared);
+        Self { scene, workspace, ray, throughput, lanes, hero, odds, parting, depth: 0, passed: 0, sobol, index }
     }
 
     /// The eight random numbers of the current vertex.
@@ -109,8 +114,9 @@ impl<'a> Walk<'a> {
     /// The first surface ahead; light is absorbed on the way there.
     #[inline]
     pub fn advance<const INTERIORS: bool>(&mut self) -> Option<Surface> {
-        self.workspace.counters.rays += 1;
-        let surface = self.scene.closest(&self.ray, f32::INFINITY);
+        let counters = &mut self.workspace.counters;
+        counters.shared_segments += u64::from(self.lanes == Lanes::Shared);
+        let surface = counters.closest(self.scene, &self.ray, f32::INFINITY);
         if INTERIORS {
             let medium = self.workspace.interiors.medium(self.scene);
             let distance = surface.map_or(f32::INFINITY, |s| s.t);
@@ -121,22 +127,36 @@ impl<'a> Walk<'a> {
         surface
     }
 
-    /// Reflection, refraction or passage at the boundary of a transparent object.
-    pub fn meet_dielectric<const DISPERSION: bool>(&mut self, surface: &Surface, medium: MediumId, u: f32) -> Crossing {
+    /// The boundary at the surface of a transparent object; `None` if it is optically absent: the volume on the other side
+    /// is the same, or hidden by one of higher priority. The workspace's `beyond` is what is past it then; with whether
+    /// that is known, see [`Interiors::set_past`].
+    pub fn boundary(&mut self, surface: &Surface, medium: MediumId) -> (Option<Dielectric>, bool) {
         let Workspace { spectra, interiors, beyond, .. } = &mut *self.workspace;
         let known = beyond.set_past(interiors, self.scene, surface, medium, self.ray.direction);
         let (from, to) = (interiors.medium(self.scene), beyond.medium(self.scene));
         let boundary = Dielectric { from: spectra.indices(self.scene, from), to: spectra.indices(self.scene, to) };
-        let cross = |workspace: &mut Workspace| {
-            workspace.counters.medium_underflows += u64::from(!known);
-            std::mem::swap(&mut workspace.interiors, &mut workspace.beyond);
-        };
-        if from == to || boundary.is_invisible() {
-            cross(self.workspace);
-            self.ray = surface.spawn(self.ray.direction);
-            self.passed += 1;
-            return if self.passed < MAX_PASSED { Crossing::Passed } else { Crossing::Ended };
-        }
+        ((from != to && !boundary.is_invisible()).then_some(boundary), known)
+    }
+
+    /// The path is in the workspace's `beyond` from here on.
+    pub fn cross(&mut self, known: bool) {
+        let Workspace { interiors, beyond, counters, .. } = &mut *self.workspace;
+        counters.medium_underflows += u64::from(!known);
+        std::mem::swap(interiors, beyond);
+    }
+
+    /// Goes on through a boundary that is optically absent.
+    pub fn pass(&mut self, surface: &Surface, known: bool) -> Crossing {
+        self.cross(known);
+        self.ray = surface.spawn(self.ray.direction);
+        self.passed += 1;
+        if self.passed < MAX_PASSED { Crossing::Passed } else { Crossing::Ended }
+    }
+
+    /// Reflection, refraction or passage at the smooth boundary of a transparent object.
+    pub fn meet_dielectric<const DISPERSION: bool>(&mut self, surface: &Surface, medium: MediumId, u: f32) -> Crossing {
+        let (boundary, known) = self.boundary(surface, medium);
+        let Some(boundary) = boundary else { return self.pass(surface, known) };
         if DISPERSION && self.parting == Parting::Terminate && boundary.is_dispersive() {
             self.leave_to_hero();
         }
@@ -150,17 +170,11 @@ impl<'a> Walk<'a> {
             self.ray = surface.spawn(incidence.reflected());
             return if self.throughput.is_zero() { Crossing::Ended } else { Crossing::Scattered };
         }
-        cross(self.workspace);
+        self.cross(known);
         if DISPERSION && self.lanes == Lanes::Shared && boundary.is_dispersive() {
             if let Parting::Ways(ways @ 2..) = self.parting {
-                let Workspace { interiors, bundle, .. } = &mut *self.workspace;
-                bundle.surface = Some(*surface);
-                bundle.directions = std::array::from_fn(|lane| boundary.refracted(&incidence, lane));
-                bundle.throughput = self.throughput.lanes();
-                (bundle.hero, bundle.ways) = (self.hero, ways);
-                (bundle.depth, bundle.passed) = (self.depth, self.passed);
-                bundle.interiors.copy_from(interiors);
-                return Crossing::Parted(ways);
+                let directions = std::array::from_fn(|lane| boundary.refracted(&incidence, lane));
+                return self.part(surface, directions, None, ways);
             }
             self.leave_to_hero();
         }
@@ -177,11 +191,29 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// Lanes part at a surface, each into a direction of its own.
+    pub fn part(
+        &mut self,
+        surface: &Surface,
+        directions: [Option<Vec3>; LANES],
+        own_pdf: Option<[f32; LANES]>,
+        ways: u8,
+    ) -> Crossing {
+        let Workspace { interiors, bundle, .. } = &mut *self.workspace;
+        bundle.surface = Some(*surface);
+        (bundle.directions, bundle.own_pdf) = (directions, own_pdf);
+        bundle.throughput = self.throughput.lanes();
+        (bundle.hero, bundle.ways) = (self.hero, ways);
+        (bundle.depth, bundle.passed) = (self.depth, self.passed);
+        bundle.interiors.copy_from(interiors);
+        Crossing::Parted(ways)
+    }
+
     /// From here on the hero stands for all lanes that shared the ray.
-    fn leave_to_hero(&mut self) {
+    pub fn leave_to_hero(&mut self) {
         if self.lanes == Lanes::Shared {
             self.lanes = Lanes::Only(self.hero);
-            self.throughput = self.throughput.only(self.hero) * self.lanes_at_start();
+            self.throughput = self.throughput.only(self.hero) * (self.lanes_at_start() / self.odds.lane(self.hero));
         }
     }
 
@@ -192,16 +224,25 @@ impl<'a> Walk<'a> {
 
     /// Goes back to where lanes parted and follows the `way`-th of those that go on; `false` if nothing of it is left.
     pub fn set_out(&mut self, way: u8) -> bool {
+        let odds_of_any = self.odds_of_any(self.workspace.bundle.ways);
         let Workspace { interiors, bundle, .. } = &mut *self.workspace;
         let stride = LANES / usize::from(bundle.ways);
         let lane = (bundle.hero + usize::from(way) * stride) % LANES;
         let (Some(surface), Some(direction)) = (bundle.surface, bundle.directions[lane]) else { return false };
         self.ray = surface.spawn(direction);
-        self.throughput = SampledSpectrum::new(bundle.throughput).only(lane) * stride as f32;
+        self.throughput = SampledSpectrum::new(bundle.throughput).only(lane) * (LANES as f32 / odds_of_any);
         (self.lanes, self.parting) = (Lanes::Bundled(lane), Parting::Ways(bundle.ways));
         (self.depth, self.passed) = (bundle.depth, bundle.passed);
         interiors.copy_from(&bundle.interiors);
         !self.throughput.is_zero()
+    }
+
+    /// Sum of the odds of the lanes that go on where `ways` do, each of which would have led to the same ways: as many as
+    /// there are ways, where lanes are equally likely.
+    fn odds_of_any(&self, ways: u8) -> f32 {
+        let stride = LANES / usize::from(ways);
+        let odds = self.odds.lanes();
+        (0..usize::from(ways)).map(|way| odds[(self.hero + way * stride) % LANES]).sum()
     }
 
     /// To be told of every diffuse surface, before the path goes on from it: ways that a bundle took end there, but for
@@ -213,99 +254,13 @@ impl<'a> Walk<'a> {
             }
             self.lanes = Lanes::Only(lane);
             if let Parting::Ways(ways) = self.parting {
-                self.throughput *= f32::from(ways);
+                self.throughput *= self.odds_of_any(ways) / self.odds.lane(lane);
             }
         }
         if self.parting != Parting::Terminate {
             self.parting = Parting::Ways(1);
         }
         true
-    }
-
-    /// The scattering model of an opaque surface, with its normals turned to the path; `None` if nothing is reflected.
-    pub fn bsdf<const INTERIORS: bool>(&mut self, object: &Object, surface: &Surface) -> Option<(Bsdf, Frame)> {
-        let scene = self.scene;
-        let back = surface.geometric.as_vec3().dot(self.ray.direction) > 0.0;
-        if back && !object.two_sided {
-            return None;
-        }
-        let spectra = &mut self.workspace.spectra;
-        let bsdf = match object.material {
-            Material::Diffuse { reflectance } => {
-                Bsdf::Diffuse(Diffuse { reflectance: spectra.spectrum(scene, reflectance) })
-            }
-            Material::Mirror { reflectance } => {
-                Bsdf::Mirror(Mirror { reflectance: spectra.spectrum(scene, reflectance) })
-            }
-            Material::Conductor { eta, k } => {
-                let outside = if INTERIORS { self.workspace.interiors.medium(scene) } else { None };
-                Bsdf::Conductor(Conductor {
-                    eta: spectra.spectrum(scene, eta),
-                    k: spectra.spectrum(scene, k),
-                    eta_outside: spectra.indices(scene, outside).eta,
-                })
-            }
-            Material::Black | Material::Dielectric { .. } => return None,
-        };
-        let frame = if back {
-            Frame { geometric: -surface.geometric, shading: -surface.shading }
-        } else {
-            Frame { geometric: surface.geometric, shading: surface.shading }
-        };
-        Some((bsdf, frame))
-    }
-
-    /// Share of light that arrives at `target` (or, without one, from infinity) from a surface in the direction `wi`;
-    /// `None` if something is in the way. Boundaries that bend or reflect nothing are no obstacle.
-    pub fn visibility<const INTERIORS: bool>(
-        &mut self,
-        surface: &Surface,
-        wi: Vec3,
-        target: Option<Vec3>,
-    ) -> Option<SampledSpectrum> {
-        let mut ray = surface.spawn(wi);
-        // Up to a target the ray's direction is the whole way, and distances end at 1.
-        let limit = match target {
-            Some(target) => {
-                ray.direction = target - ray.origin;
-                1.0 - 16.0 * f32::EPSILON
-            }
-            None => f32::INFINITY,
-        };
-        if !INTERIORS {
-            self.workspace.counters.rays += 1;
-            return (!self.scene.occluded(&ray, limit)).then_some(SampledSpectrum::ONE);
-        }
-        self.visibility_through_media(ray, limit, target)
-    }
-
-    fn visibility_through_media(&mut self, mut ray: Ray, limit: f32, target: Option<Vec3>) -> Option<SampledSpectrum> {
-        let Workspace { spectra, interiors, shadow_interiors, beyond, counters, .. } = &mut *self.workspace;
-        shadow_interiors.copy_from(interiors);
-        let mut transmittance = SampledSpectrum::ONE;
-        loop {
-            counters.rays += 1;
-            let hit = self.scene.closest(&ray, limit);
-            let medium = shadow_interiors.medium(self.scene);
-            let distance =
-                hit.map_or(if target.is_some() { 1.0 } else { f32::INFINITY }, |h| h.t) * ray.direction.length();
-            if let Some(absorption) = medium.and_then(|m| self.scene.media[m.0 as usize].absorption) {
-                transmittance *= optics::transmittance(spectra.spectrum(self.scene, absorption), distance);
-            }
-            let Some(surface) = hit else { return Some(transmittance) };
-            let object = &self.scene.objects[surface.object as usize];
-            let Material::Dielectric { medium: inside } = object.material else { return None };
-            beyond.set_past(shadow_interiors, self.scene, &surface, inside, ray.direction);
-            let past = beyond.medium(self.scene);
-            if medium != past && spectra.indices(self.scene, medium).eta != spectra.indices(self.scene, past).eta {
-                return None;
-            }
-            std::mem::swap(shadow_interiors, beyond);
-            ray = surface.spawn(ray.direction);
-            if let Some(target) = target {
-                ray.direction = target - ray.origin;
-            }
-        }
     }
 
     /// Ends paths that carry next to nothing, and by chance those that carry little; `false` at the end. `u` is a random

@@ -238,6 +238,11 @@ impl Light {
         f64::from(share.min(1.0))
     }
 
+    /// Whether a ray could run into it.
+    pub fn has_extent(&self) -> bool {
+        self.is_infinite() || matches!(self.kind, LightKind::Area { .. })
+    }
+
     /// Whether light paths can start from it.
     pub fn can_emit(&self) -> bool {
         !matches!(self.kind, LightKind::Area { shape: AreaShape::Unsampled, .. })

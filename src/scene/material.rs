@@ -25,24 +25,45 @@ pub enum Material {
         /// Reflectance.
         reflectance: SpectrumId,
     },
-    /// Smooth metal.
+    /// Metal.
     Conductor {
         /// Real part of the index.
         eta: SpectrumId,
         /// Imaginary part.
         k: SpectrumId,
+        /// GGX α; 0 is smooth.
+        alpha: f32,
     },
     /// The boundary of a transparent volume.
     Dielectric {
         /// What is inside.
         medium: MediumId,
+        /// GGX α; 0 is smooth.
+        alpha: f32,
     },
 }
+
+/// Roughness from which on a surface no longer counts as focusing light: lobes as wide as that are found by camera paths
+/// as well as by light paths.
+pub const LARGEST_FOCUSING_ALPHA: f32 = 0.5;
 
 impl Material {
     /// Whether light is scattered into single directions only.
     pub fn is_specular(&self) -> bool {
-        matches!(self, Self::Mirror { .. } | Self::Conductor { .. } | Self::Dielectric { .. })
+        match *self {
+            Self::Mirror { .. } => true,
+            Self::Conductor { alpha, .. } | Self::Dielectric { alpha, .. } => alpha == 0.0,
+            Self::Black | Self::Diffuse { .. } => false,
+        }
+    }
+
+    /// Whether light is scattered into so small a part of all directions that it can make caustics.
+    pub fn focuses(&self) -> bool {
+        match *self {
+            Self::Mirror { .. } => true,
+            Self::Conductor { alpha, .. } | Self::Dielectric { alpha, .. } => alpha < LARGEST_FOCUSING_ALPHA,
+            Self::Black | Self::Diffuse { .. } => false,
+        }
     }
 }
 

@@ -154,7 +154,7 @@ const EDITS: &[Edit] = &[
     ("cauchy empty", "\"ior\": 1.5", "\"ior\": {\"cauchy_um\": []}", "missing", "materials.glass.ior.cauchy_um", "empty list"),
     ("negative index table", "\"ior\": 1.5", "\"ior\": {\"wavelengths_nm\": [400, 700], \"values\": [1.5, -1]}", "out_of_range", "materials.glass.ior.values[1]", "> 0"),
     ("unknown extrapolation", "\"ior\": 1.5", "\"ior\": {\"glass\": \"N-BK7\", \"extrapolate\": \"linear\"}", "unknown_name", "materials.glass.ior.extrapolate", "\"hold\""),
-    ("rough glass", "\"ior\": 1.5", "\"ior\": 1.5, \"roughness\": [0, 0.1]", "unsupported", "materials.glass.roughness", "not supported yet"),
+    ("anisotropic glass", "\"ior\": 1.5", "\"ior\": 1.5, \"roughness\": [0, 0.1]", "unsupported", "materials.glass.roughness", "anisotropic roughness [0, 0.1] is not supported yet"),
     ("roughness above 1", "\"ior\": 1.5", "\"ior\": 1.5, \"roughness\": 2", "out_of_range", "materials.glass.roughness", "[0, 1]"),
     ("rgb absorption", "\"ior\": 1.5", "\"ior\": 1.5, \"absorption_per_m\": {\"rgb\": [1, 0, 0]}", "wrong_type", "materials.glass.absorption_per_m", "cannot be an RGB colour"),
     ("negative absorption", "\"ior\": 1.5", "\"ior\": 1.5, \"absorption_per_m\": -1", "out_of_range", "materials.glass.absorption_per_m", "an absorption"),

@@ -48,7 +48,8 @@ impl Drop for SceneFolder {
 
 pub fn render_all(compiled: &Compiled, features: SceneFeatures) -> (Film, Statistics) {
     let proceed = &mut |_: Progress| true;
-    render(&compiled.scene, &compiled.render, &compiled.film, features, proceed)
+    let rendering = render(&compiled.scene, &compiled.render, &compiled.film, features, proceed);
+    (rendering.film, rendering.statistics)
 }
 
 pub fn everything() -> Value {
@@ -225,4 +226,13 @@ fn multiply_shape(object: &mut Value, factor: f64) {
         other => panic!("the lengths of a {other} are not known here"),
     };
     multiply_keys(shape, keys, factor);
+}
+
+/// What a render has counted, without the times.
+#[allow(dead_code, reason = "not every test that uses this module compares it")]
+pub fn counted(statistics: &Statistics) -> impl PartialEq + std::fmt::Debug + use<> {
+    let Statistics { samples, camera_paths, light_paths, photon_paths, decisions, counters, error_bound, complete } =
+        *statistics;
+    let rays = [counters.rays, counters.shadow_rays, counters.shared_segments, counters.medium_underflows];
+    (samples, camera_paths, light_paths, photon_paths, decisions, rays, error_bound, complete)
 }

@@ -3,7 +3,7 @@
 
 use abbe::film::Film;
 use abbe::math;
-use abbe::render::Statistics;
+use abbe::render::{Rendering, Statistics};
 use abbe::scene::{Compiled, SceneFeatures};
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_2;
@@ -18,9 +18,13 @@ pub fn compile_json(scene: &Value) -> Compiled {
 
 /// Renders a scene, and insists that no sample was lost and no path lost count of what it is inside of.
 pub fn render_json(scene: &Value) -> (Film, Statistics) {
-    let compiled = compile_json(scene);
+    render_compiled(&compile_json(scene))
+}
+
+/// The same for a compiled scene.
+pub fn render_compiled(compiled: &Compiled) -> (Film, Statistics) {
     let features = SceneFeatures { dispersion: false, interiors: false };
-    let (film, statistics) =
+    let Rendering { film, statistics, .. } =
         abbe::render::render(&compiled.scene, &compiled.render, &compiled.film, features, &mut |_| true);
     assert!(statistics.complete);
     assert_eq!(film.non_finite_samples, 0, "samples were not finite");

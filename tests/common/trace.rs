@@ -91,7 +91,7 @@ impl<'a> Tracer<'a> {
     /// Index of what wins among objects: the highest priority, and of equals the one entered last.
     fn index(&self, inside: &[u32], lambda_nm: f64) -> f64 {
         let medium = |object: &u32| match self.scene.objects[*object as usize].material {
-            Material::Dielectric { medium } => &self.scene.media[medium.0 as usize],
+            Material::Dielectric { medium, .. } => &self.scene.media[medium.0 as usize],
             _ => panic!("rays are traced through glass alone"),
         };
         inside.iter().map(medium).max_by_key(|m| m.priority).map_or(1.0, |m| m.ior.eval(lambda_nm))

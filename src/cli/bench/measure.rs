@@ -5,7 +5,7 @@ use super::{Session, reference::Reference, work::Work};
 use crate::cli::process;
 use crate::io::exr_read::{self, Preference};
 use crate::metrics::{self, Pair};
-use crate::render::{Progress, render};
+use crate::render::{Phase, Progress, Rendering, render};
 use crate::scene::{RenderSettings, SceneFeatures};
 use crate::{Error, ErrorKind, Result};
 use std::path::Path;
@@ -27,14 +27,45 @@ pub struct Run {
     pub cpu_seconds: f64,
     /// Rays, where the program tells.
     pub rays: Option<u64>,
+    /// What kinds of rays these were.
+    pub kinds: Option<Kinds>,
     /// Largest resident memory while it ran, where the system tells.
     pub peak_memory_bytes: Option<u64>,
+    /// Samples of each pixel, where abbe tells.
+    pub samples_per_pixel: u64,
+    /// What abbe claims that the relMSE is below.
+    pub claimed_relmse: Option<f64>,
     /// relMSE against the reference as it is.
     pub raw_relmse: f64,
     /// The same without the worst 0.1 % of the pixels.
     pub trimmed_relmse: f64,
     /// Pixels that are not finite.
     pub non_finite_pixels: usize,
+}
+
+/// The rays of a run by kind.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Kinds {
+    /// Rays of each kind of work, shadow rays included, in the order of [`Phase::ALL`].
+    pub phases: [u64; Phase::ALL.len()],
+    /// Shadow rays among all of them.
+    pub shadow: u64,
+    /// Mean share of lanes that go along with a segment of a path.
+    pub lane_occupancy: f64,
+    /// Seconds that finding what a ray meets takes, as far as single rays were timed.
+    pub seconds_per_ray: f64,
+}
+
+impl Kinds {
+    fn new(rendering: &Rendering) -> Self {
+        let (counters, profile) = (&rendering.statistics.counters, &rendering.profile);
+        Self {
+            phases: profile.rays,
+            shadow: counters.shadow_rays,
+            lane_occupancy: counters.lane_occupancy(),
+            seconds_per_ray: profile.intersections.seconds_per_ray(),
+        }
+    }
 }
 
 impl Run {
@@ -103,16 +134,19 @@ pub fn abbe(session: &Session, work: &Work, settings: &RenderSettings) -> (Image
     let (started, cpu) = (Instant::now(), session.clock.own());
     let none = SceneFeatures { dispersion: false, interiors: false };
     let compiled = &work.compiled;
-    let (picture, statistics) = session.pool.install(|| {
-        let go_on = &mut |_: Progress| true;
-        let (film, statistics) = render(&compiled.scene, settings, &compiled.film, none, go_on);
-        (film.to_xyz(), statistics)
+    let (picture, rendering) = session.pool.install(|| {
+        let rendering = render(&compiled.scene, settings, &compiled.film, none, &mut |_: Progress| true);
+        (rendering.film.to_xyz(), rendering)
     });
+    let statistics = &rendering.statistics;
     let run = Run {
         seed: settings.seed,
         wall_seconds: started.elapsed().as_secs_f64(),
         cpu_seconds: session.clock.own() - cpu,
         rays: Some(statistics.counters.rays),
+        kinds: Some(Kinds::new(&rendering)),
+        samples_per_pixel: statistics.samples,
+        claimed_relmse: statistics.error_bound,
         peak_memory_bytes: process::peak_memory_bytes(),
         ..Run::default()
     };

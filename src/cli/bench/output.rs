@@ -5,6 +5,7 @@ use super::variant::Kind;
 use super::{SceneReport, Session, VariantReport, html};
 use crate::Result;
 use crate::io::output::write_atomically;
+use crate::render::Phase;
 use serde_json::{Value, json};
 
 /// Writes bench.csv, bench.json and bench.html.
@@ -18,7 +19,7 @@ pub fn write_files(session: &Session, reports: &[SceneReport]) -> Result<()> {
 /// One line a run.
 fn to_csv(reports: &[SceneReport]) -> String {
     let mut text = "scene,variant,samples_per_pixel,replicate,seed,wall_seconds,cpu_seconds,relmse,relmse_trimmed,\
-                    reference_relmse,rays,peak_memory_bytes,non_finite_pixels\n"
+                    reference_relmse,rays,shadow_rays,lane_occupancy,peak_memory_bytes,non_finite_pixels\n"
         .to_owned();
     for report in reports {
         for v in &report.variants {
@@ -38,6 +39,8 @@ fn to_csv(reports: &[SceneReport]) -> String {
                     run.trimmed_relmse.to_string(),
                     report.reference.own_relmse().to_string(),
                     optional(run.rays),
+                    optional(run.kinds.map(|kinds| kinds.shadow)),
+                    run.kinds.map_or(String::new(), |kinds| kinds.lane_occupancy.to_string()),
                     optional(run.peak_memory_bytes),
                     run.non_finite_pixels.to_string(),
                 ];
@@ -49,7 +52,7 @@ fn to_csv(reports: &[SceneReport]) -> String {
 }
 
 /// A CSV field.
-fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     let plain = !text.contains([',', '"', '\n', '\r']);
     if plain { text.to_owned() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
 }
@@ -115,13 +118,25 @@ fn level_json(level: &Level) -> Value {
         "relmse_trimmed": level.trimmed_relmse, "systematic_relmse": level.systematic_relmse,
         "reference_too_noisy": level.too_good,
         "cpu_seconds": level.cpu_seconds, "wall_seconds": level.wall_seconds,
-        "rays_per_cpu_second": level.rays_per_cpu_second(), "peak_memory_bytes": level.peak_memory_bytes(),
+        "rays_per_cpu_second": level.rays_per_cpu_second(), "rays_per_cpu_second_by_kind": kinds_json(level),
+        "lane_occupancy": level.mean_of_kinds(|kinds| kinds.lane_occupancy),
+        "seconds_per_ray": level.mean_of_kinds(|kinds| kinds.seconds_per_ray),
+        "peak_memory_bytes": level.peak_memory_bytes(),
         "runs": level.runs.iter().map(|run| json!({
             "seed": run.seed, "wall_seconds": run.wall_seconds, "cpu_seconds": run.cpu_seconds,
             "relmse_raw": run.raw_relmse, "relmse_trimmed": run.trimmed_relmse, "rays": run.rays,
             "peak_memory_bytes": run.peak_memory_bytes, "non_finite_pixels": run.non_finite_pixels,
         })).collect::<Vec<_>>(),
     })
+}
+
+/// Rays a second of processor time: by kind of work, where there are any, and shadow rays among them.
+fn kinds_json(level: &Level) -> Value {
+    let rays = |phase: Phase| level.rays_of_kind(|kinds| kinds.phases[phase as usize]).filter(|rays| *rays > 0.0);
+    let named = |phase: Phase| Some((phase.name().to_owned(), json!(rays(phase)?)));
+    let mut kinds: serde_json::Map<String, Value> = Phase::ALL.into_iter().filter_map(named).collect();
+    kinds.extend(level.rays_of_kind(|kinds| kinds.shadow).map(|rays| ("shadow".to_owned(), json!(rays))));
+    Value::Object(kinds)
 }
 
 /// The columns of the summary: head, and text for each variant.
@@ -145,6 +160,16 @@ pub fn columns(session: &Session, report: &SceneReport) -> Vec<(String, Vec<Stri
     columns.push(("CPU ms/spp".into(), of(&|v| optional(v.summary.cost.map(|cost| cost.per_sample * 1e3)))));
     let rays = |v: &VariantReport| v.levels.last().and_then(Level::rays_per_cpu_second).map(|rays| rays * 1e-6);
     columns.push(("Mrays/CPU s".into(), of(&|v| optional(rays(v)))));
+    let shadow = |level: &Level| {
+        let [shadow, all] = [level.rays_of_kind(|kinds| kinds.shadow)?, level.rays_per_cpu_second()?];
+        Some(100.0 * shadow / all)
+    };
+    let lanes = |level: &Level| level.mean_of_kinds(|kinds| 100.0 * kinds.lane_occupancy);
+    let percent = |v: &VariantReport, value: &dyn Fn(&Level) -> Option<f64>| {
+        v.levels.last().and_then(value).map(|p| format!("{p:.0} %"))
+    };
+    columns.push(("shadow rays".into(), of(&|v| percent(v, &shadow).unwrap_or("–".into()))));
+    columns.push(("lanes in use".into(), of(&|v| percent(v, &lanes).unwrap_or("–".into()))));
     let memory = |v: &VariantReport| v.levels.last().and_then(Level::peak_memory_bytes).map(|b| b as f64 / 1048576.0);
     columns.push(("peak MiB".into(), of(&|v| memory(v).map_or("–".into(), |m| format!("{m:.0}")))));
     columns

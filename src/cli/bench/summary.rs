@@ -1,6 +1,6 @@
 //! From runs to figures: spread, cost, slope, time to a target.
 
-use super::measure::Run;
+use super::measure::{Kinds, Run};
 use crate::math;
 use crate::metrics::stats::{self, Line};
 
@@ -55,6 +55,17 @@ impl Level {
     pub fn rays_per_cpu_second(&self) -> Option<f64> {
         let rays: Option<Vec<f64>> = self.runs.iter().map(|run| run.rays.map(|n| n as f64)).collect();
         Some(stats::mean(&rays?) / self.cpu_seconds).filter(|v| v.is_finite())
+    }
+
+    /// Rays a second of processor time, of those that `count` counts.
+    pub fn rays_of_kind(&self, count: impl Fn(&Kinds) -> u64) -> Option<f64> {
+        Some(self.mean_of_kinds(|kinds| count(kinds) as f64)? / self.cpu_seconds).filter(|v| v.is_finite())
+    }
+
+    /// The mean over runs of something known of their rays.
+    pub fn mean_of_kinds(&self, value: impl Fn(&Kinds) -> f64) -> Option<f64> {
+        let values: Option<Vec<f64>> = self.runs.iter().map(|run| run.kinds.as_ref().map(&value)).collect();
+        values.filter(|values| !values.is_empty()).map(|values| stats::mean(&values))
     }
 
     /// The largest memory of any run.

@@ -13,7 +13,7 @@ pub const INTEGRATORS: [(&str, Integrator); 5] = [
     ("hero", Integrator::Hero),
 ];
 
-const KEYS: [&str; 2] = ["integrator", "max-depth"];
+const KEYS: [&str; 3] = ["integrator", "max-depth", "adaptive"];
 
 /// One way to render.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +33,8 @@ pub enum Kind {
         integrator: Option<Integrator>,
         /// Largest number of scattering events.
         max_depth: Option<u32>,
+        /// Whether pixels get samples by their noise.
+        adaptive: Option<bool>,
     },
     /// Another program.
     Command {
@@ -47,9 +49,10 @@ impl Kind {
     /// The settings of abbe for a scene.
     pub fn settings(&self, work: &Work, samples_per_pixel: u64, seed: u64) -> RenderSettings {
         let mut settings = RenderSettings { samples_per_pixel, seed, ..work.compiled.render };
-        if let Self::Abbe { integrator, max_depth } = self {
+        if let Self::Abbe { integrator, max_depth, adaptive } = self {
             settings.integrator = integrator.unwrap_or(settings.integrator);
             settings.max_depth = max_depth.unwrap_or(settings.max_depth);
+            settings.adaptive = adaptive.unwrap_or(settings.adaptive);
         }
         settings
     }
@@ -57,7 +60,8 @@ impl Kind {
 
 /// All combinations of `KEY=A,B` and all of `NAME=COMMAND`. Without any of the former: abbe as the scene says.
 pub fn all(vary: &[String], against: &[String], scale: &str) -> Result<Vec<Variant>> {
-    let none = Variant { name: String::new(), kind: Kind::Abbe { integrator: None, max_depth: None } };
+    let kind = Kind::Abbe { integrator: None, max_depth: None, adaptive: None };
+    let none = Variant { name: String::new(), kind };
     let mut variants = vec![none];
     for text in vary {
         let (key, values) = text
@@ -88,20 +92,25 @@ pub fn all(vary: &[String], against: &[String], scale: &str) -> Result<Vec<Varia
 
 /// A variant with one more setting.
 fn with(variant: &Variant, key: &str, value: &str) -> Result<Variant> {
-    let Kind::Abbe { integrator, max_depth } = variant.kind else { return Ok(variant.clone()) };
-    let kind = match key {
-        "integrator" => Kind::Abbe { integrator: Some(integrator_by_name("--vary integrator", value)?), max_depth },
+    let mut kind = variant.kind.clone();
+    let Kind::Abbe { integrator, max_depth, adaptive } = &mut kind else { return Ok(variant.clone()) };
+    match key {
+        "integrator" => *integrator = Some(integrator_by_name("--vary integrator", value)?),
         "max-depth" => {
             let depth = value.parse().ok().filter(|d| (1..=1 << 20).contains(d));
-            let max_depth =
+            *max_depth =
                 Some(depth.ok_or_else(|| usage(format!("--vary max-depth: {value:?}; expected a number above 0")))?);
-            Kind::Abbe { integrator, max_depth }
+        }
+        "adaptive" => {
+            let switch = [("on", true), ("off", false)].into_iter().find(|(name, _)| *name == value);
+            let (_, on) = switch.ok_or_else(|| usage(format!("--vary adaptive: {value:?}; expected on or off")))?;
+            *adaptive = Some(on);
         }
         _ => {
             let message = format!("--vary {key}: no such setting; expected one of {}", KEYS.join(", "));
             return Err(usage(message).nearest(key, KEYS));
         }
-    };
+    }
     let told = if key == "integrator" { value.to_owned() } else { format!("{key} {value}") };
     let name = if variant.name.is_empty() { told } else { format!("{}, {told}", variant.name) };
     Ok(Variant { name, kind })
@@ -168,6 +177,7 @@ mod tests {
         assert!(message(&["lanes=4"], &[]).contains("no such setting"));
         assert!(message(&["integrator"], &[]).contains("expected KEY=A,B"));
         assert!(message(&["max-depth=0"], &[]).contains("above 0"));
+        assert!(message(&["adaptive=yes"], &[]).contains("expected on or off"));
         assert!(message(&["integrator=path,path"], &[]).contains("twice"));
         assert!(message(&[], &["x=render {spp}"]).contains("{spp} and {out}"));
     }

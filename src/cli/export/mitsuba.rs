@@ -131,14 +131,17 @@ fn surface(object: &Object) -> Result<String> {
             "<bsdf type=\"conductor\"><string name=\"material\" value=\"none\"/>{}</bsdf>",
             spectrum("specular_reflectance", table)
         ),
-        Surface::Conductor(eta, k) => {
-            format!("<bsdf type=\"conductor\">{}{}</bsdf>", spectrum("eta", eta), spectrum("k", k))
+        Surface::Conductor(eta, k, alpha) => {
+            let (kind, facets) = facets("conductor", *alpha);
+            format!("<bsdf type=\"{kind}\">{facets}{}{}</bsdf>", spectrum("eta", eta), spectrum("k", k))
         }
-        Surface::Dielectric(Table::Constant(eta)) => {
+        Surface::Dielectric(Table::Constant(eta), alpha) => {
             let ior = |name: &str, value: f64| format!("<float name=\"{name}\" value=\"{value}\"/>");
-            return Ok(format!("<bsdf type=\"dielectric\">{}{}</bsdf>", ior("int_ior", *eta), ior("ext_ior", 1.0)));
+            let (kind, facets) = facets("dielectric", *alpha);
+            let media = format!("{}{}", ior("int_ior", *eta), ior("ext_ior", 1.0));
+            return Ok(format!("<bsdf type=\"{kind}\">{facets}{media}</bsdf>"));
         }
-        Surface::Dielectric(Table::Sampled(_)) => {
+        Surface::Dielectric(Table::Sampled(_), _) => {
             return Err(cannot(
                 NAME,
                 "an index of refraction that depends on the wavelength (expected --at NM)",
@@ -147,6 +150,16 @@ fn surface(object: &Object) -> Result<String> {
         }
     };
     Ok(if object.two_sided { format!("<bsdf type=\"twosided\">{bsdf}</bsdf>") } else { bsdf })
+}
+
+/// The type of a surface with this roughness, and its parameters. Mitsuba's masking has no correlation of heights, which
+/// makes very rough surfaces a little darker.
+fn facets(smooth: &str, alpha: f32) -> (String, String) {
+    if alpha == 0.0 {
+        return (smooth.to_owned(), String::new());
+    }
+    let parameters = format!("<string name=\"distribution\" value=\"ggx\"/><float name=\"alpha\" value=\"{alpha}\"/>");
+    (format!("rough{smooth}"), parameters)
 }
 
 fn light(out: &mut String, kind: &LightKind, table: &Table, at: &str) -> Result<()> {

@@ -71,10 +71,10 @@ pub enum Surface {
     Diffuse(Table),
     /// Perfect mirror.
     Mirror(Table),
-    /// Smooth metal: real and imaginary part of the index.
-    Conductor(Table, Table),
-    /// Smooth boundary of a transparent volume in air.
-    Dielectric(Table),
+    /// Metal: real and imaginary part of the index, GGX α (0 is smooth).
+    Conductor(Table, Table, f32),
+    /// Boundary of a transparent volume in air: its index, GGX α (0 is smooth).
+    Dielectric(Table, f32),
 }
 
 /// A spectrum: a constant, or values at wavelengths in nm.
@@ -219,18 +219,19 @@ fn surface(scene: &Scene, material: Material, at_nm: Option<f64>, place: &str) -
         Material::Black => Surface::Diffuse(Table::Constant(0.0)),
         Material::Diffuse { reflectance } => Surface::Diffuse(table(reflectance)),
         Material::Mirror { reflectance } => Surface::Mirror(table(reflectance)),
-        Material::Conductor { eta, k } => Surface::Conductor(table(eta), table(k)),
-        Material::Dielectric { medium } => {
+        Material::Conductor { eta, k, alpha } => Surface::Conductor(table(eta), table(k), alpha),
+        Material::Dielectric { medium, alpha } => {
             let medium = &scene.media[medium.0 as usize];
             if medium.absorption.is_some() {
                 let message =
                     "absorption inside a volume cannot be written: other renderers have it in media of their own";
                 return Err(Error::new(ErrorKind::Unsupported, message).at(place));
             }
-            Surface::Dielectric(match at_nm {
+            let index = match at_nm {
                 Some(nm) => Table::Constant(medium.ior.eval(nm)),
                 None => Table::new(|nm| medium.ior.eval(nm)),
-            })
+            };
+            Surface::Dielectric(index, alpha)
         }
     })
 }

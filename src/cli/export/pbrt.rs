@@ -119,13 +119,23 @@ fn surface(object: &Object) -> Result<String> {
         Surface::Diffuse(table) if object.two_sided || *table == Table::Constant(0.0) => {
             format!("Material \"diffuse\" {}", spectrum("reflectance", table))
         }
-        Surface::Conductor(eta, k) if object.two_sided => {
-            format!("Material \"conductor\" {} {}", spectrum("eta", eta), spectrum("k", k))
+        Surface::Conductor(eta, k, alpha) if object.two_sided => {
+            format!("Material \"conductor\" {} {}{}", spectrum("eta", eta), spectrum("k", k), facets(*alpha))
         }
-        Surface::Dielectric(eta) => format!("Material \"dielectric\" {}", spectrum("eta", eta)),
+        Surface::Dielectric(eta, alpha) => {
+            format!("Material \"dielectric\" {}{}", spectrum("eta", eta), facets(*alpha))
+        }
         Surface::Mirror(_) => return Err(cannot(NAME, "a perfect mirror", &object.at)),
         _ => return Err(cannot(NAME, "a surface with one side", &object.at)),
     })
+}
+
+/// Parameters of roughness, GGX α as it is; none if smooth.
+fn facets(alpha: f32) -> String {
+    match alpha {
+        0.0 => String::new(),
+        alpha => format!(" \"float roughness\" {alpha} \"bool remaproughness\" false"),
+    }
 }
 
 fn light(out: &mut String, kind: &LightKind, table: &Table, at: &str) -> Result<()> {

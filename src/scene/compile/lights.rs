@@ -71,7 +71,7 @@ pub fn compile(
         local: Vec::new(),
         wavelengths: spectral.density(&raw, normalization.radius),
         radiance_scale,
-        caustic_aim: specular_aim(geometry),
+        caustic_aim: focusing_aim(geometry),
     };
     let (mut sampled, mut caustic, mut emitting) = (Vec::new(), Vec::new(), Vec::new());
     for raw in raw {
@@ -240,9 +240,9 @@ fn sphere_light(center: DVec3, radius: f64, transform: &DAffine3) -> (AreaShape,
 }
 
 /// A sphere around everything that can focus light; `None` if nothing can.
-fn specular_aim(geometry: &Geometry) -> Option<Aim> {
-    let specular = geometry.objects.iter().filter(|o| o.material.is_specular());
-    let bounds = specular.fold(Aabb::EMPTY, |bounds, o| bounds.union(o.bounds));
+fn focusing_aim(geometry: &Geometry) -> Option<Aim> {
+    let casters = geometry.objects.iter().filter(|o| o.material.focuses());
+    let bounds = casters.fold(Aabb::EMPTY, |bounds, o| bounds.union(o.bounds));
     let half = (bounds.max - bounds.min) * 0.5;
     half.is_finite().then(|| Aim { center: bounds.center(), radius: half.length() * (1.0 + 4.0 * f32::EPSILON) })
 }

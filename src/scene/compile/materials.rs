@@ -2,6 +2,7 @@
 
 use super::normalize::Normalization;
 use super::spectra::{Role, Spectra, in_referenced_file};
+use crate::bsdf::Ggx;
 use crate::io::{catalogue, refractive_index_info};
 use crate::optics::ior::{Extrapolation, IndexOfRefraction};
 use crate::scene::description::{ConductorDescription, IorDescription, IorKind, MaterialKind, SceneDescription};
@@ -36,8 +37,11 @@ impl Materials {
                     let function = spectra.resolve(reflectance, Role::Reflectance)?;
                     Material::Mirror { reflectance: spectra.add(&function, 1.0) }
                 }
-                MaterialKind::Conductor(metal) => conductor(metal, &material.at, spectra)?,
-                MaterialKind::Dielectric { ior, absorption_per_m, priority } => {
+                MaterialKind::Conductor { index, roughness } => {
+                    let alpha = alpha(*roughness, &material.at, description, warnings);
+                    conductor(index, alpha, &material.at, spectra)?
+                }
+                MaterialKind::Dielectric { ior, roughness, absorption_per_m, priority } => {
                     let (ior, warning) = index_of_refraction(ior)?;
                     let file = description.file.display();
                     warnings.extend(warning.map(|w| format!("{file}: {}.ior: {w}", material.at)));
@@ -50,7 +54,8 @@ impl Materials {
                         }
                     };
                     media.push(Medium { dispersive: ior.is_dispersive(), ior, absorption, priority: *priority });
-                    Material::Dielectric { medium: MediumId(media.len() as u32 - 1) }
+                    let alpha = alpha(*roughness, &material.at, description, warnings);
+                    Material::Dielectric { medium: MediumId(media.len() as u32 - 1), alpha }
                 }
             };
             materials.push((material, two_sided));
@@ -59,8 +64,18 @@ impl Materials {
     }
 }
 
-fn conductor(metal: &ConductorDescription, at: &str, spectra: &mut Spectra) -> Result<Material> {
-    let (eta, k): (SpectrumId, SpectrumId) = match metal {
+/// Roughness as it is rendered: what is too little to tell from smooth is smooth.
+fn alpha(roughness: f64, at: &str, description: &SceneDescription, warnings: &mut Vec<String>) -> f32 {
+    if roughness == 0.0 || roughness >= Ggx::SMOOTHEST {
+        return roughness as f32;
+    }
+    let file = description.file.display();
+    warnings.push(format!("{file}: {at}.roughness: less than {:e} is rendered as smooth", Ggx::SMOOTHEST));
+    0.0
+}
+
+fn conductor(index: &ConductorDescription, alpha: f32, at: &str, spectra: &mut Spectra) -> Result<Material> {
+    let (eta, k): (SpectrumId, SpectrumId) = match index {
         ConductorDescription::Metal(name) => {
             let metal = catalogue::metal(name)
                 .and_then(|entry| entry.complex_index())
@@ -76,7 +91,7 @@ fn conductor(metal: &ConductorDescription, at: &str, spectra: &mut Spectra) -> R
             (spectra.add(&eta, 1.0), spectra.add(&k, 1.0))
         }
     };
-    Ok(Material::Conductor { eta, k })
+    Ok(Material::Conductor { eta, k, alpha })
 }
 
 fn index_of_refraction(ior: &IorDescription) -> Result<(IndexOfRefraction, Option<String>)> {

@@ -18,6 +18,7 @@ use glam::DVec3;
 use materials::Materials;
 use normalize::Normalization;
 use spectra::Spectra;
+use std::time::Instant;
 
 /// What a scene file asks for, ready to render.
 #[derive(Debug)]
@@ -35,8 +36,14 @@ pub struct Compiled {
 /// How to sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RenderSettings {
-    /// Camera paths per pixel.
+    /// Camera paths per pixel, on average; the most of them where something else stops the render.
     pub samples_per_pixel: u64,
+    /// relMSE below which the render stops.
+    pub target_error: Option<f64>,
+    /// When the render stops.
+    pub deadline: Option<Instant>,
+    /// Whether pixels that have converged get fewer samples, and the others more.
+    pub adaptive: bool,
     /// Largest number of scattering events on a path.
     pub max_depth: u32,
     /// Seed of all sequences.
@@ -132,6 +139,9 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
         scene,
         render: RenderSettings {
             samples_per_pixel: description.render.samples_per_pixel,
+            target_error: None,
+            deadline: None,
+            adaptive: false,
             max_depth: description.render.max_depth,
             seed: description.render.seed,
             integrator,

@@ -203,23 +203,21 @@ impl Decoder {
             }
             "mirror" => MaterialKind::Mirror { reflectance: self.spectrum(&fields, "reflectance", Role::Reflectance)? },
             "conductor" => {
-                refuse_roughness(&fields)?;
-                MaterialKind::Conductor(match fields.text_if_given("metal") {
+                let index = match fields.text_if_given("metal") {
                     Some(metal) => ConductorDescription::Metal(metal),
                     None => ConductorDescription::EtaK {
                         eta: self.spectrum(&fields, "eta", Role::Index)?,
                         k: self.spectrum(&fields, "k", Role::Index)?,
                     },
-                })
+                };
+                MaterialKind::Conductor { index, roughness: roughness(&fields)? }
             }
-            "dielectric" => {
-                refuse_roughness(&fields)?;
-                MaterialKind::Dielectric {
-                    ior: self.spectra.ior(&fields.value("ior"), &fields.at("ior"))?,
-                    absorption_per_m: self.spectrum_if_given(&fields, "absorption_per_m", Role::Absorption)?,
-                    priority: fields.integer("priority") as i32,
-                }
-            }
+            "dielectric" => MaterialKind::Dielectric {
+                ior: self.spectra.ior(&fields.value("ior"), &fields.at("ior"))?,
+                roughness: roughness(&fields)?,
+                absorption_per_m: self.spectrum_if_given(&fields, "absorption_per_m", Role::Absorption)?,
+                priority: fields.integer("priority") as i32,
+            },
             other => unreachable!("the table has no material {other}"),
         };
         let two_sided = !matches!(kind, MaterialKind::Dielectric { .. }) && fields.flag("two_sided");
@@ -328,15 +326,19 @@ impl Decoder {
     }
 }
 
-/// Only smooth surfaces so far.
-fn refuse_roughness(fields: &Fields) -> Result<()> {
-    let smooth = match &*fields.value("roughness") {
-        Json::Numbers(alphas) => alphas.iter().all(|alpha| *alpha == 0.0),
-        other => other.as_number() == Some(0.0),
-    };
-    if smooth {
-        return Ok(());
+/// GGX α. Shapes have no directions along them so far, which [αx, αy] would refer to.
+fn roughness(fields: &Fields) -> Result<f64> {
+    let value = fields.value("roughness");
+    if let Some(alpha) = value.as_number() {
+        return Ok(alpha);
     }
-    let message = "rough surfaces are not supported yet; expected 0";
+    let [x, y]: [f64; 2] = fields.array("roughness");
+    if x == y {
+        return Ok(x);
+    }
+    let message = format!(
+        "anisotropic roughness [{x}, {y}] is not supported yet, as surfaces have no directions to which it could refer; \
+         expected one number, or two equal ones"
+    );
     Err(error(ErrorKind::Unsupported, &fields.at("roughness"), message))
 }

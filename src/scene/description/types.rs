@@ -233,12 +233,19 @@ pub enum MaterialKind {
         /// Reflectance in [0, 1].
         reflectance: SpectrumDescription,
     },
-    /// Smooth metal by its complex index.
-    Conductor(ConductorDescription),
-    /// Smooth transparent solid.
+    /// Metal.
+    Conductor {
+        /// Its complex index.
+        index: ConductorDescription,
+        /// GGX α in [0, 1]; 0 is smooth.
+        roughness: f64,
+    },
+    /// Transparent solid.
     Dielectric {
         /// Index of refraction, relative to air.
         ior: IorDescription,
+        /// GGX α in [0, 1]; 0 is smooth.
+        roughness: f64,
         /// Absorption inside, per metre.
         absorption_per_m: Option<SpectrumDescription>,
         /// The higher wins where volumes overlap.

@@ -171,7 +171,7 @@ const ROUGHNESS: Field = default(
     "roughness",
     Kind::Either(&ROUGHNESS_KINDS),
     "0",
-    "GGX alpha, or [ax, ay]; 0 is smooth, the only one in this version.",
+    "GGX alpha, or [ax, ay], which must be equal in this version; 0 is smooth.",
 );
 static REFLECTOR_FIELDS: [Field; 2] =
     [required("reflectance", Kind::Spectrum(Role::Reflectance), "Reflectance in [0, 1]."), TWO_SIDED];

@@ -1,22 +1,21 @@
 //! `abbe render`: a scene in, pictures out.
 
-use super::{process, write_data};
-use crate::develop::{self, Tonemap};
+mod progress;
+mod report;
+mod write;
+
+use super::process;
 use crate::film::Film;
-use crate::io::exr::Attributes;
-use crate::io::output::write_atomically;
-use crate::io::{exr, png};
-use crate::render::{Progress, Statistics, render};
+use crate::render::{Progress, blind_spot, render};
 use crate::scene::description::{self, Integrator, SceneDescription};
 use crate::scene::{Compiled, SceneFeatures, compile};
 use crate::{Error, ErrorKind, Result};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use serde_json::json;
-use std::io::IsTerminal;
+use progress::ProgressDisplay;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
+use write::Written;
 
 /// Arguments of `abbe render`.
 #[derive(Debug, Clone, clap::Args)]
@@ -27,7 +26,7 @@ pub struct RenderArgs {
     /// .png, here
     #[arg(short, long = "output", value_name = "FILE")]
     pub output: Vec<PathBuf>,
-    /// Samples per pixel
+    /// Samples per pixel; with --time or --target-error the most of them
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
     pub spp: Option<u64>,
     /// Seed of the random sequences
@@ -39,7 +38,7 @@ pub struct RenderArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH")]
     pub resolution: Option<String>,
-    /// auto, path or light
+    /// auto, path, light, merge or hero
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<String>,
     /// Exposure of PNGs in stops, or auto
@@ -51,12 +50,15 @@ pub struct RenderArgs {
     /// Spectral bands in the EXR (not yet)
     #[arg(long, value_name = "N", hide = true)]
     pub bands: Option<String>,
-    /// Render for a given time (not yet)
-    #[arg(long, value_name = "SECONDS", hide = true)]
-    pub time: Option<String>,
-    /// Render to a given error (not yet)
-    #[arg(long, value_name = "E", hide = true)]
-    pub target_error: Option<String>,
+    /// Stop after this time, reading the scene included
+    #[arg(long, value_name = "SECONDS")]
+    pub time: Option<f64>,
+    /// Stop when the relMSE is below E, with a confidence of 95 %
+    #[arg(long, value_name = "E")]
+    pub target_error: Option<f64>,
+    /// Whether pixels that have converged get fewer samples and the others more; by default with --time and --target-error
+    #[arg(long, value_name = "on|off")]
+    pub adaptive: Option<Switch>,
     /// No progress, no warnings
     #[arg(short, long)]
     pub quiet: bool,
@@ -68,13 +70,25 @@ pub struct RenderArgs {
     pub json: bool,
 }
 
+/// On or off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Switch {
+    /// On
+    On,
+    /// Off
+    Off,
+}
+
+/// Most samples a pixel where something else stops the render.
+const ENDLESS: u64 = 1 << 40;
+
 /// Renders. Interrupted with Ctrl-C it writes what it has and returns exit code 75.
 ///
 /// # Errors
 /// `Usage` for flags that make no sense, those of scene files, `Io` if a picture cannot be written.
 pub fn run(args: &RenderArgs) -> Result<ExitCode> {
-    refuse_what_is_not_there(args)?;
     let started = Instant::now();
+    check(args)?;
     let outputs = outputs(args)?;
     let (mut description, mut warnings) = read(&args.scene)?;
     override_settings(&mut description, args)?;
@@ -83,41 +97,66 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
         .num_threads(args.threads.map_or(0, usize::from))
         .build()
         .map_err(|e| Error::new(ErrorKind::Io, format!("cannot start threads: {e}")))?;
-    let compiled = pool.install(|| compile(&description))?;
+    let mut compiled = pool.install(|| compile(&description))?;
+    stop_as_asked(&mut compiled, args, started)?;
     warnings.extend_from_slice(&compiled.warnings);
     if !args.quiet {
         warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
     }
+    let compiling = started.elapsed();
     if args.verbose {
-        describe(&compiled, started.elapsed());
+        report::describe(&compiled, compiling);
     }
 
     let interrupted = watch_for_interrupts()?;
-    let bar = progress_bar(args.quiet, compiled.render.samples_per_pixel);
-    let rendering = Instant::now();
-    let (film, statistics) = pool.install(|| {
+    let bar = ProgressDisplay::new(args.quiet, &compiled.render, started);
+    let rendering = pool.install(|| {
         let none = SceneFeatures { dispersion: false, interiors: false };
         render(&compiled.scene, &compiled.render, &compiled.film, none, &mut |progress: Progress| {
-            show(&bar, &progress, rendering.elapsed());
+            bar.show(&progress);
             !interrupted.load(Ordering::Relaxed)
         })
     });
-    bar.finish_and_clear();
+    bar.finish();
 
-    let seconds = started.elapsed().as_secs_f64();
-    write_outputs(&outputs, &film, &description, &compiled, &statistics, seconds, args.verbose)?;
-    report(args, &outputs, &film, &statistics, seconds)?;
-    Ok(if statistics.complete { ExitCode::SUCCESS } else { ExitCode::from(super::INTERRUPTED) })
+    let written =
+        Written { args, outputs: &outputs, description: &description, compiled: &compiled, compiling, started };
+    written.write(&rendering)?;
+    Ok(if rendering.statistics.complete { ExitCode::SUCCESS } else { ExitCode::from(super::INTERRUPTED) })
 }
 
 fn usage(message: impl Into<String>) -> Error {
     Error::new(ErrorKind::Usage, message)
 }
 
-fn refuse_what_is_not_there(args: &RenderArgs) -> Result<()> {
-    let later = [("--bands", &args.bands), ("--time", &args.time), ("--target-error", &args.target_error)];
-    match later.into_iter().find(|(_, value)| value.is_some()) {
-        Some((flag, _)) => Err(usage(format!("`{flag}` is not there yet"))),
+/// Refuses what makes no sense before any work is done.
+fn check(args: &RenderArgs) -> Result<()> {
+    if args.bands.is_some() {
+        return Err(usage("`--bands` is not there yet"));
+    }
+    if let Some(seconds) = args.time.filter(|seconds| !(0.0..=1e9).contains(seconds)) {
+        return Err(usage(format!("--time {seconds}: expected seconds, from 0 to a billion")));
+    }
+    match args.target_error.filter(|error| !(*error > 0.0 && error.is_finite())) {
+        Some(error) => Err(usage(format!("--target-error {error}: expected a relMSE above 0, such as 0.001"))),
+        None => Ok(()),
+    }
+}
+
+/// Sets what stops the render.
+fn stop_as_asked(compiled: &mut Compiled, args: &RenderArgs, started: Instant) -> Result<()> {
+    let until = args.time.is_some() || args.target_error.is_some();
+    let settings = &mut compiled.render;
+    settings.target_error = args.target_error;
+    settings.deadline = args.time.map(|seconds| started + Duration::from_secs_f64(seconds));
+    settings.adaptive = args.adaptive.map_or(until, |switch| switch == Switch::On);
+    if until {
+        settings.samples_per_pixel = args.spp.unwrap_or(ENDLESS);
+    }
+    match blind_spot(&compiled.scene, settings.integrator).filter(|_| args.target_error.is_some()) {
+        Some(what) => {
+            Err(usage(format!("--target-error: {what}, and no error tells of it; expected --integrator auto")))
+        }
         None => Ok(()),
     }
 }
@@ -253,20 +292,6 @@ fn named<T: Copy>(flag: &str, name: &str, known: &[(&str, T)]) -> Result<T> {
     })
 }
 
-fn describe(compiled: &Compiled, elapsed: Duration) {
-    let scene = &compiled.scene;
-    let yes = |b: bool| if b { "yes" } else { "no" };
-    eprintln!(
-        "compiled in {:.2} s: {} objects, {} lights; dispersion: {}, interiors: {}; integrator: {:?}",
-        elapsed.as_secs_f64(),
-        scene.objects.len(),
-        scene.lights.len(),
-        yes(scene.features.dispersion),
-        yes(scene.features.interiors),
-        compiled.render.integrator,
-    );
-}
-
 /// A flag that Ctrl-C raises; a second Ctrl-C ends the process at once.
 fn watch_for_interrupts() -> Result<&'static AtomicBool> {
     static INTERRUPTED: AtomicBool = AtomicBool::new(false);
@@ -277,137 +302,4 @@ fn watch_for_interrupts() -> Result<&'static AtomicBool> {
     })
     .map_err(|e| Error::new(ErrorKind::Io, format!("cannot watch for Ctrl-C: {e}")))?;
     Ok(&INTERRUPTED)
-}
-
-fn progress_bar(quiet: bool, samples: u64) -> ProgressBar {
-    if quiet || !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::with_draw_target(Some(samples), ProgressDrawTarget::stderr());
-    let template = "{bar:32} {pos}/{len} samples per pixel, {msg}, {eta} left";
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
-    }
-    bar
-}
-
-fn show(bar: &ProgressBar, progress: &Progress, elapsed: Duration) {
-    bar.set_position(progress.samples);
-    bar.set_message(format!("{:.1} Mrays/s", progress.rays as f64 / elapsed.as_secs_f64() / 1e6));
-}
-
-fn write_outputs(
-    outputs: &[PathBuf],
-    film: &Film,
-    description: &SceneDescription,
-    compiled: &Compiled,
-    statistics: &Statistics,
-    seconds: f64,
-    verbose: bool,
-) -> Result<()> {
-    let xyz = film.to_xyz();
-    for path in outputs {
-        let bytes = match extension(path) {
-            Some(Format::Exr) => {
-                let attributes = Attributes {
-                    scene_hash: scene_hash(&description.file),
-                    seed: compiled.render.seed,
-                    samples_per_pixel: statistics.camera_paths / (u64::from(film.width()) * u64::from(film.height())),
-                    seconds,
-                };
-                let (bytes, overflows) = exr::encode(&xyz, film.width(), &attributes)?;
-                if overflows > 0 {
-                    eprintln!("warning: {}: {overflows} values were too large for 32 bits", path.display());
-                }
-                bytes
-            }
-            Some(Format::Png) | None => {
-                let tonemap = match description.develop.tonemap {
-                    description::Tonemap::Srgb => Tonemap::Srgb,
-                    description::Tonemap::Exponential => Tonemap::Exponential,
-                    description::Tonemap::Reinhard => Tonemap::Reinhard,
-                };
-                let picture = develop::develop(&xyz, film.width(), description.develop.exposure_ev, tonemap);
-                if verbose {
-                    let outside = picture.out_of_gamut * 100.0;
-                    eprintln!(
-                        "developed at {:+.2} EV; {outside:.2} % of the pixels were outside sRGB",
-                        picture.exposure_ev
-                    );
-                }
-                png::encode(&picture)?
-            }
-        };
-        match is_stdout(path) {
-            true => write_data(&mut std::io::stdout().lock(), &bytes)?,
-            false => write_atomically(path, &bytes)?,
-        }
-    }
-    Ok(())
-}
-
-/// Hash of the scene file's bytes; 0 for a scene that is no file.
-fn scene_hash(path: &Path) -> u64 {
-    let bytes = std::fs::read(path).unwrap_or_default();
-    bytes.chunks(8).fold(0, |hash, chunk| {
-        let mut word = [0; 8];
-        word[..chunk.len()].copy_from_slice(chunk);
-        crate::sampling::mix(hash ^ u64::from_le_bytes(word))
-    })
-}
-
-fn report(args: &RenderArgs, outputs: &[PathBuf], film: &Film, statistics: &Statistics, seconds: f64) -> Result<()> {
-    let error = film.estimated_relative_mse();
-    let pixels = u64::from(film.width()) * u64::from(film.height());
-    let camera = statistics.camera_paths;
-    if film.non_finite_samples > 0 {
-        eprintln!("warning: {} samples were not finite and have been left out", film.non_finite_samples);
-    }
-    let decisions = &statistics.decisions;
-    if args.verbose {
-        eprintln!("{decisions}");
-        let cpu = process::cpu_seconds().unwrap_or(f64::NAN);
-        let paths = (camera + statistics.light_paths + statistics.photon_paths) as f64;
-        eprintln!(
-            "{camera} camera paths, {} light paths, {} of them for merging, {:.2} rays a path, {:.3} µs of CPU a path, {} rays left glass they had \
-             not entered; estimated relMSE {}",
-            statistics.light_paths + statistics.photon_paths,
-            statistics.photon_paths,
-            statistics.counters.rays as f64 / paths,
-            cpu / paths * 1e6,
-            statistics.counters.medium_underflows,
-            error.map_or("unknown".to_owned(), |e| format!("{e:.2e}")),
-        );
-    }
-    if args.json {
-        let value = json!({
-            "seconds": seconds,
-            "cpu_seconds": process::cpu_seconds(),
-            "samples_per_pixel": camera.max(if camera == 0 { statistics.light_paths } else { 0 }) / pixels,
-            "width": film.width(),
-            "height": film.height(),
-            "camera_paths": camera,
-            "light_paths": statistics.light_paths,
-            "photon_paths": statistics.photon_paths,
-            "plan": {
-                "camera_ways": decisions.camera_ways,
-                "light_ways": decisions.light_ways,
-                "light_paths_per_camera_path": decisions.light_paths_per_camera_path,
-                "merge_passes_per_sample": decisions.merge_passes_per_sample,
-                "photon_paths_per_pass": decisions.photon_paths_per_pass,
-                "pilot_rays": decisions.pilot_rays,
-            },
-            "rays": statistics.counters.rays,
-            "medium_underflows": statistics.counters.medium_underflows,
-            "estimated_relative_mse": error,
-            "non_finite_samples": film.non_finite_samples,
-            "peak_memory_bytes": process::peak_memory_bytes(),
-            "outputs": outputs,
-        });
-        write_data(&mut std::io::stdout().lock(), format!("{value}\n").as_bytes())?;
-    } else if !args.quiet && std::io::stderr().is_terminal() {
-        let names: Vec<String> = outputs.iter().map(|p| p.display().to_string()).collect();
-        eprintln!("{} in {seconds:.1} s", names.join(", "));
-    }
-    Ok(())
 }

@@ -1,0 +1,89 @@
+//! Writes the pictures of a render, and tells of it.
+
+use super::{Format, RenderArgs, extension, is_stdout, report};
+use crate::Result;
+use crate::cli::write_data;
+use crate::develop::{self, Tonemap};
+use crate::film::Film;
+use crate::io::exr::Attributes;
+use crate::io::output::write_atomically;
+use crate::io::{exr, png};
+use crate::render::{Rendering, Statistics};
+use crate::scene::Compiled;
+use crate::scene::description::{self, SceneDescription};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// What is to be written of a render.
+pub struct Written<'a> {
+    /// The command line.
+    pub args: &'a RenderArgs,
+    /// The files.
+    pub outputs: &'a [PathBuf],
+    /// The scene as it was read.
+    pub description: &'a SceneDescription,
+    /// The scene as it was rendered.
+    pub compiled: &'a Compiled,
+    /// What reading and compiling took.
+    pub compiling: Duration,
+    /// When the program started.
+    pub started: Instant,
+}
+
+impl Written<'_> {
+    /// Writes the files, then the report.
+    pub fn write(&self, rendering: &Rendering) -> Result<()> {
+        let writing = Instant::now();
+        let seconds = self.started.elapsed().as_secs_f64();
+        for path in self.outputs {
+            let bytes = match extension(path) {
+                Some(Format::Exr) => self.exr(path, &rendering.film, &rendering.statistics, seconds)?,
+                Some(Format::Png) | None => self.png(&rendering.film)?,
+            };
+            match is_stdout(path) {
+                true => write_data(&mut std::io::stdout().lock(), &bytes)?,
+                false => write_atomically(path, &bytes)?,
+            }
+        }
+        report::report(self, rendering, seconds, writing.elapsed())
+    }
+
+    fn exr(&self, path: &Path, film: &Film, statistics: &Statistics, seconds: f64) -> Result<Vec<u8>> {
+        let attributes = Attributes {
+            scene_hash: scene_hash(&self.description.file),
+            seed: self.compiled.render.seed,
+            samples_per_pixel: statistics.samples,
+            seconds,
+        };
+        let (bytes, overflows) = exr::encode(film, &attributes)?;
+        if overflows > 0 {
+            eprintln!("warning: {}: {overflows} values were too large for 32 bits", path.display());
+        }
+        Ok(bytes)
+    }
+
+    fn png(&self, film: &Film) -> Result<Vec<u8>> {
+        let settings = &self.description.develop;
+        let tonemap = match settings.tonemap {
+            description::Tonemap::Srgb => Tonemap::Srgb,
+            description::Tonemap::Exponential => Tonemap::Exponential,
+            description::Tonemap::Reinhard => Tonemap::Reinhard,
+        };
+        let picture = develop::develop(&film.to_xyz(), film.width(), settings.exposure_ev, tonemap);
+        if self.args.verbose {
+            let outside = picture.out_of_gamut * 100.0;
+            eprintln!("developed at {:+.2} EV; {outside:.2} % of the pixels were outside sRGB", picture.exposure_ev);
+        }
+        png::encode(&picture)
+    }
+}
+
+/// Hash of the scene file's bytes; 0 for a scene that is no file.
+fn scene_hash(path: &Path) -> u64 {
+    let bytes = std::fs::read(path).unwrap_or_default();
+    bytes.chunks(8).fold(0, |hash, chunk| {
+        let mut word = [0; 8];
+        word[..chunk.len()].copy_from_slice(chunk);
+        crate::sampling::mix(hash ^ u64::from_le_bytes(word))
+    })
+}

@@ -1,0 +1,138 @@
+//! Adaptive sampling: where the picture is noisy pixels get more samples, where it has converged few. What a stage gives each
+//! pixel is decided by the stages before it, and what a stage counts in the mean is fixed: see
+//! [`crate::film::Film::close_stage`]. Pooling the samples that decide with those that follow would be biased.
+
+use crate::film::Film;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Noise and cost are known from few samples: of each pixel they are the mean over a square that reaches so far.
+const REACH: usize = 2;
+/// Share of the samples that are spread evenly, against what earlier stages have missed.
+const DEFENSIVE: f64 = 0.1;
+/// Variance of a pixel relative to its brightness squared beyond which it counts as this: the error of a pixel that has
+/// hardly been hit says little.
+const LARGEST_VARIANCE: f64 = 1.0;
+/// Most samples of a pixel, for each sample that pixels get on average.
+const LARGEST_RATE: f64 = 16.0;
+/// Least samples of a pixel in a stage: one in each replicate.
+const LEAST_SAMPLES: u64 = 2;
+/// What a path costs beside its rays, in rays.
+const COST_OF_A_PATH: f64 = 1.0;
+
+/// What the stages of a render give each pixel.
+#[derive(Debug, Default)]
+pub struct Adaptive {
+    /// Samples of each pixel in earlier stages.
+    before: Vec<u64>,
+    /// Samples of each pixel in this stage; empty in the first, where all get the same.
+    counts: Vec<u64>,
+    /// Rays that each pixel has cost.
+    rays: Vec<u64>,
+}
+
+impl Adaptive {
+    /// Of a picture with so many pixels.
+    pub fn new(pixels: usize) -> Self {
+        Self { before: vec![0; pixels], counts: Vec::new(), rays: vec![0; pixels] }
+    }
+
+    /// The samples of a pixel that belong to `taken` of the `length` average samples of a stage.
+    pub fn samples(&self, pixel: u32, taken: Range<u64>, length: u64) -> Range<u64> {
+        let pixel = pixel as usize;
+        let Some(&count) = self.counts.get(pixel) else { return taken };
+        let part = |taken: u64| self.before[pixel] + (count * taken).div_ceil(length);
+        part(taken.start)..part(taken.end)
+    }
+
+    /// Adds what a pixel has cost.
+    pub fn add_rays(&mut self, pixel: u32, rays: u64) {
+        self.rays[pixel as usize] += rays;
+    }
+
+    /// Decides on a stage of `length` samples on average, by what is on the film. With variances V of a sample and costs c,
+    /// the relMSE for a given cost is least with numbers in proportion to √(V / c).
+    pub fn start_stage(&mut self, film: &Film, length: u64) {
+        self.before = (0..self.rays.len()).map(|pixel| film.samples(pixel)).collect();
+        let size = [film.width() as usize, film.height() as usize];
+        let variances = film.relative_camera_variances();
+        let of_a_sample = variances.iter().zip(&self.before).map(|(v, &n)| v.min(LARGEST_VARIANCE) * n as f64);
+        let variances = blurred(&of_a_sample.collect::<Vec<_>>(), size);
+        let costs =
+            self.rays.iter().zip(&self.before).map(|(&rays, &n)| COST_OF_A_PATH + rays as f64 / n.max(1) as f64);
+        let costs = blurred(&costs.collect::<Vec<_>>(), size);
+        self.counts = rates(&variances, &costs).into_iter().map(|rate| count(rate, length)).collect();
+    }
+}
+
+/// Samples at a rate in a stage: as many in each replicate.
+fn count(rate: f64, length: u64) -> u64 {
+    ((0.5 * rate * length as f64).round() as u64 * 2).max(LEAST_SAMPLES)
+}
+
+/// Samples for each sample on average, at the cost of an even spread.
+fn rates(variances: &[f64], costs: &[f64]) -> Vec<f64> {
+    let wanted: Vec<f64> = variances.iter().zip(costs).map(|(v, c)| (v / c).sqrt()).collect();
+    let total: f64 = costs.iter().sum();
+    let spent: f64 = wanted.iter().zip(costs).map(|(w, c)| w * c).sum();
+    let scale = if spent > 0.0 { (1.0 - DEFENSIVE) * total / spent } else { 0.0 };
+    wanted.iter().map(|w| (DEFENSIVE + scale * w).min(LARGEST_RATE)).collect()
+}
+
+/// Means over squares around each pixel.
+fn blurred(values: &[f64], [width, height]: [usize; 2]) -> Vec<f64> {
+    let around = |at: usize, size: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(size);
+    let mean_of_row = |row: usize, x: usize| {
+        let columns = around(x, width);
+        let n = columns.len() as f64;
+        columns.map(|column| values[row * width + column]).sum::<f64>() / n
+    };
+    let rows: Vec<f64> =
+        (0..values.len()).into_par_iter().map(|pixel| mean_of_row(pixel / width, pixel % width)).collect();
+    let mean = |pixel: usize| {
+        let around = around(pixel / width, height);
+        let n = around.len() as f64;
+        around.map(|row| rows[row * width + pixel % width]).sum::<f64>() / n
+    };
+    (0..values.len()).into_par_iter().map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_follow_noise_at_the_same_cost() {
+        let (variances, costs) = ([4.0, 1.0, 0.0, 1.0], [1.0, 1.0, 1.0, 4.0]);
+        let rates = rates(&variances, &costs);
+        assert!(((rates[0] - DEFENSIVE) / (rates[1] - DEFENSIVE) - 2.0).abs() < 1e-12);
+        assert!(((rates[1] - DEFENSIVE) / (rates[3] - DEFENSIVE) - 2.0).abs() < 1e-12);
+        assert_eq!(rates[2], DEFENSIVE);
+        let cost: f64 = rates.iter().zip(costs).map(|(r, c)| r * c).sum();
+        assert!((cost - 7.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn every_pixel_gets_its_samples_in_whatever_passes() {
+        let adaptive = Adaptive { before: vec![8, 8], counts: vec![2, 30], rays: vec![0; 2] };
+        for (pixel, count) in [(0, 2), (1, 30)] {
+            let mut next = 8;
+            for taken in [0..1, 1..4, 4..8] {
+                let samples = adaptive.samples(pixel, taken, 8);
+                assert_eq!(samples.start, next);
+                next = samples.end;
+            }
+            assert_eq!(next, 8 + count);
+        }
+        assert_eq!(Adaptive::new(1).samples(0, 3..5, 8), 3..5);
+    }
+
+    #[test]
+    fn blur_keeps_constants_and_spreads_spikes() {
+        assert!(blurred(&[2.0; 12], [4, 3]).iter().all(|v| (v - 2.0).abs() < 1e-12));
+        let mut spike = vec![0.0; 49];
+        spike[24] = 25.0;
+        let spread = blurred(&spike, [7, 7]);
+        assert!((spread[24] - 1.0).abs() < 1e-12 && spread[21] == 0.0);
+    }
+}

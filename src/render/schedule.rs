@@ -1,0 +1,95 @@
+//! The order of the work: segments, at whose ends all that is learnt during a render changes, and nowhere else. Which part of
+//! each technique's work belongs to a number of samples depends on that number alone, so that a render stopped there,
+//! by a clock or a target, has the bits of one that was asked for so many.
+
+use super::allocation::Allocation;
+use std::ops::Range;
+
+/// Camera samples a pixel of the first segment; each of the following is as long as all before it.
+const FIRST_SEGMENT: u64 = 8;
+
+/// A stretch of a render with one split of the work.
+#[derive(Debug, Clone, Default)]
+pub struct Segment {
+    /// Samples of each pixel, on average.
+    pub samples: Range<u64>,
+    /// The first light path.
+    first_light_path: u64,
+    /// Light paths for each sample of a pixel, all pixels taken together.
+    light_paths_per_sample: f64,
+    /// What each light path counts: all of a segment count as many as its camera paths.
+    pub light_weight: f64,
+    /// The first pass of merging.
+    first_merge_pass: u64,
+    merge_passes_per_sample: f64,
+}
+
+/// Work done so far, or to be done.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Samples of each pixel, on average.
+    pub samples: u64,
+    /// Light paths.
+    pub light_paths: u64,
+    /// Passes of merging.
+    pub merge_passes: u64,
+}
+
+impl Segment {
+    /// The segment up to sample `end`, from where the work has come to.
+    pub fn new(done: Work, end: u64, pixels: u64, allocation: Allocation) -> Self {
+        Self {
+            samples: done.samples..end,
+            first_light_path: done.light_paths,
+            light_paths_per_sample: pixels as f64 * allocation.light,
+            light_weight: 1.0 / allocation.light,
+            first_merge_pass: done.merge_passes,
+            merge_passes_per_sample: allocation.merged,
+        }
+    }
+
+    /// Samples that have been taken of this segment.
+    pub fn taken(&self, samples: u64) -> u64 {
+        samples - self.samples.start
+    }
+
+    /// The work of all techniques up to some samples.
+    pub fn work(&self, samples: u64) -> Work {
+        let taken = self.taken(samples) as f64;
+        Work {
+            samples,
+            light_paths: self.first_light_path + (taken * self.light_paths_per_sample).round() as u64,
+            merge_passes: self.first_merge_pass + (taken * self.merge_passes_per_sample).ceil() as u64,
+        }
+    }
+}
+
+/// Where the segment ends that follows `done` samples.
+pub fn segment_end(done: u64) -> u64 {
+    let mut end = FIRST_SEGMENT;
+    while end <= done {
+        end *= 2;
+    }
+    end
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn segments() {
+        let ends: Vec<u64> = [0, 7, 8, 31, 32, 99].into_iter().map(segment_end).collect();
+        assert_eq!(ends, [8, 8, 16, 32, 64, 128]);
+    }
+
+    /// Light paths are in proportion to camera paths up to half a path, and passes of merging are never late.
+    #[test]
+    fn work_follows_samples() {
+        let done = Work { samples: 8, light_paths: 100, merge_passes: 2 };
+        let segment = Segment::new(done, 16, 10, Allocation { light: 0.33, merged: 0.25 });
+        assert_eq!(segment.work(8), done);
+        assert_eq!(segment.work(9), Work { samples: 9, light_paths: 103, merge_passes: 3 });
+        assert_eq!(segment.work(16), Work { samples: 16, light_paths: 126, merge_passes: 4 });
+    }
+}

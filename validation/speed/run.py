@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""How fast caustics converge, against the baselines in the tree: `python3 validation/speed/run.py [--only SCENE] [--quick]`.
+
+Runs `abbe bench` on the scenes below, over a mask where the caustic is and over the whole picture, for `auto`, the plain light
+tracer `light` and the baseline `hero`, and writes report.md. Where a baseline cannot get there, one render of 600 CPU
+seconds says how far it came; --quick leaves those out. Takes about half an hour on two cores.
+"""
+
+import argparse
+import json
+import os
+import struct
+import subprocess
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+OUTPUT = HERE / "output"
+TARGET = 0.1
+BUDGET_CPU_SECONDS = 600
+
+
+@dataclass
+class Case:
+    """A scene at a size, a region of the picture as a polygon in shares of its sides, and who takes part."""
+
+    scene: str
+    size: tuple
+    region: str
+    polygon: list | None
+    variants: tuple
+    seconds: int
+    hopeless: tuple = ()  # what is given 600 CPU seconds in one render instead of a benchmark
+
+
+CASES = [
+    Case("prism", (256, 160), "spectrum on the table", [(0.51, 0.36), (0.9, 0.55), (0.9, 0.78), (0.5, 0.37)],
+         ("auto", "light"), 100, ("hero",)),
+    Case("prism", (256, 160), "whole picture", None, ("auto", "light"), 60),
+    Case("ball", (160, 105), "caustic on the table", [(0.42, 0.52), (0.62, 0.5), (0.72, 0.58), (0.62, 0.68), (0.42, 0.68)],
+         ("auto", "light", "hero"), 150),
+    Case("ball", (160, 105), "whole picture", None, ("auto", "hero"), 100),
+    Case("gem", (128, 96), "whole picture", None, ("auto", "hero"), 150),
+    Case("prism-through-prism", (180, 90), "whole picture", None, ("auto",), 60, ("hero", "light")),
+]
+
+
+def abbe():
+    """The release build, or the program that ABBE names."""
+    if "ABBE" in os.environ:
+        return os.environ["ABBE"]
+    subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=ROOT, check=True)
+    return str(ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release" / "abbe")
+
+
+def inside(polygon, x, y):
+    """Whether a point lies in a polygon, by the even-odd rule."""
+    odd = False
+    for (x0, y0), (x1, y1) in zip(polygon, polygon[1:] + polygon[:1]):
+        if (y0 > y) != (y1 > y) and x < x0 + (y - y0) / (y1 - y0) * (x1 - x0):
+            odd = not odd
+    return odd
+
+
+def write_mask(path, size, polygon):
+    """A grey PNG, white inside the polygon."""
+    width, height = size
+    rows = b"".join(
+        b"\0" + bytes(255 * inside(polygon, (x + 0.5) / width, (y + 0.5) / height) for x in range(width))
+        for y in range(height)
+    )
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
+    content = chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + content)
+
+
+def bench(binary, case):
+    """The summary of one benchmark, and the arguments that tell its picture."""
+    folder = OUTPUT / f"{case.scene}-{case.region.replace(' ', '-')}"
+    folder.mkdir(parents=True, exist_ok=True)
+    size = "{}x{}".format(*case.size)
+    mask = []
+    if case.polygon:
+        write_mask(folder / "mask.png", case.size, case.polygon)
+        mask = ["--mask", str(folder / "mask.png")]
+    line = [binary, "bench", str(ROOT / "scenes" / f"{case.scene}.json"), "--resolution", size, *mask, "-o", str(folder)]
+    line += ["--vary", "integrator=" + ",".join(case.variants), "--target", str(TARGET), "--reference", "auto"]
+    line += ["--time-limit", str(case.seconds), "--json"]
+    told = json.loads(subprocess.run(line, check=True, stdout=subprocess.PIPE, text=True).stdout)
+    return told["scenes"][0], folder, size, mask
+
+
+def hopeless(binary, case, integrator, folder, size, mask):
+    """CPU seconds and relMSE of one long render."""
+    picture = folder / f"{integrator}.exr"
+    scene = str(ROOT / "scenes" / f"{case.scene}.json")
+    line = [binary, "render", scene, "-q", "--resolution", size, "--integrator", integrator, "--adaptive", "off"]
+    line += ["--time", str(BUDGET_CPU_SECONDS / os.cpu_count()), "-o", str(picture), "--json"]
+    told = json.loads(subprocess.run(line, check=True, stdout=subprocess.PIPE, text=True).stdout)
+    reference = max((folder / "references").glob(f"{case.scene}-*[0-9a-f].exr"), key=lambda path: path.stat().st_mtime)
+    line = [binary, "compare", str(picture), str(reference), *mask, "--json"]
+    compared = json.loads(subprocess.run(line, check=True, stdout=subprocess.PIPE, text=True).stdout)
+    return told["cpu_seconds"], compared["relmse"]
+
+
+def reached(variant):
+    """CPU seconds to the target, its interval in words, and whether it was reached."""
+    [found] = [r for r in variant["time_to_target"] if r["relmse"] == TARGET]
+    if found["cpu_seconds"] is None:
+        return found["not_reached_in"], f"not reached in {found['not_reached_in']:.1f}", False
+    if found.get("by_the_smallest_budget"):
+        return found["cpu_seconds"], f"< {found['cpu_seconds']:.3g}", True
+    high = f"{found['high_95']:.3g}" if found["high_95"] is not None else "?"
+    return found["cpu_seconds"], f"{found['cpu_seconds']:.3g} ({found['low_95']:.3g}–{high})", True
+
+
+def rows(binary, case, quick):
+    """Lines of the table."""
+    told, folder, size, mask = bench(binary, case)
+    best, _, _ = reached(told["variants"][0])
+    for variant in told["variants"]:
+        seconds, text, there = reached(variant)
+        ratio = "" if variant is told["variants"][0] else f"{'' if there else '> '}{seconds / best:.3g} ×"
+        efficiency = f"{variant['efficiency']:.3g}" if variant["efficiency"] else "–"
+        yield [case.scene, case.region, size.replace("x", "×"), variant["name"], text, ratio, efficiency]
+    for integrator in () if quick else case.hopeless:
+        seconds, error = hopeless(binary, case, integrator, folder, size, mask)
+        text = f"not reached in {seconds:.0f}: relMSE {error:.3g}"
+        yield [case.scene, case.region, size.replace("x", "×"), integrator, text, f"> {seconds / best:.3g} ×", "–"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--only", metavar="SCENE")
+    parser.add_argument("--quick", action="store_true", help="without the renders of 600 CPU seconds")
+    args = parser.parse_args()
+    binary = abbe()
+    head = ["scene", "where", "pixels", "integrator", f"CPU s to relMSE {TARGET}", "auto is faster by", "1/(relMSE·CPU s)"]
+    lines = ["# Time to a caustic", "", "By `python3 validation/speed/run.py`; intervals are of 95 %.", ""]
+    lines += ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    for case in CASES:
+        if args.only in (None, case.scene):
+            for row in rows(binary, case, args.quick):
+                lines.append("| " + " | ".join(row) + " |")
+                print(lines[-1], flush=True)
+    if args.only is None and not args.quick:
+        (HERE / "report.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
