@@ -17,6 +17,7 @@ use super::{Aabb, Ray};
 use build::Item;
 use glam::Vec3;
 use node::{Node, PACKET, Packet, RayLanes, Reference, Target, WIDTH};
+use wide::{f32x8, i32x8};
 
 /// Boxes grow by this share of the largest coordinate: the rounding of a vertex relative to a ray's origin (12u), so
 /// that a ray that the rounded triangle takes is not lost at its box. Holds for origins up to twice as far out.
@@ -27,10 +28,10 @@ const BOX_GROWTH: f32 = 16.0 * 0.5 * f32::EPSILON;
 const TIE_SLACK: f32 = 1.0 + 8.0 * f32::EPSILON;
 
 /// Stack sizes: each ray clears its stack, so small trees get small ones. The last holds any tree: at most 7 entries for
-/// each level of [`build::MAX_DEPTH`].
+/// each level of [`build::MAX_DEPTH`], and the one that is about to be visited.
 const SMALL_STACK: usize = 16;
 const MEDIUM_STACK: usize = 64;
-const LARGE_STACK: usize = (WIDTH - 1) * build::MAX_DEPTH as usize;
+const LARGE_STACK: usize = (WIDTH - 1) * build::MAX_DEPTH as usize + 1;
 
 /// A bounding volume hierarchy. See the [module](self).
 #[derive(Debug, Clone)]
@@ -150,9 +151,9 @@ impl Bvh {
         t_max: f32,
         analytic: impl FnMut(u32, f32) -> Option<f32>,
     ) -> Option<Nearest> {
-        if self.stack_entries <= SMALL_STACK {
+        if self.stack_entries < SMALL_STACK {
             self.traverse::<SMALL_STACK, ANY>(ray, t_max, analytic)
-        } else if self.stack_entries <= MEDIUM_STACK {
+        } else if self.stack_entries < MEDIUM_STACK {
             self.traverse::<MEDIUM_STACK, ANY>(ray, t_max, analytic)
         } else {
             self.traverse::<LARGE_STACK, ANY>(ray, t_max, analytic)
@@ -224,15 +225,6 @@ struct Stack<const SIZE: usize> {
 }
 
 impl<const SIZE: usize> Stack<SIZE> {
-    #[inline(always)]
-    fn push(&mut self, entry: u64) {
-        // The size is chosen by the tree's depth, so this never drops anything.
-        if let Some(slot) = self.entries.get_mut(self.len) {
-            *slot = entry;
-            self.len += 1;
-        }
-    }
-
     /// The next reference no farther than `limit`.
     #[inline(always)]
     fn pop(&mut self, limit: f32) -> Option<Reference> {
@@ -247,39 +239,34 @@ impl<const SIZE: usize> Stack<SIZE> {
 
     /// Pushes all hit children but the nearest, farthest first, and gives the nearest. For `ANY`: in any order.
     #[inline(always)]
-    fn push_children<const ANY: bool>(&mut self, node: &Node, near: wide::f32x8, mut hits: u32) -> Reference {
+    fn push_children<const ANY: bool>(&mut self, node: &Node, near: f32x8, hits: u32) -> Reference {
         let first = hits.trailing_zeros() as usize % WIDTH;
-        hits &= hits - 1;
-        if hits == 0 {
+        let count = hits.count_ones() as usize;
+        // The size is chosen by the tree's depth, so there always is room.
+        let (true, Some(slots)) = (count > 1, self.entries.get_mut(self.len..self.len + count)) else {
             return node.children[first];
-        }
-        let near = near.to_array();
-        let mut nearest = stack_entry(near[first], node.children[first]);
-        let base = self.len;
-        while hits != 0 {
-            let lane = hits.trailing_zeros() as usize % WIDTH;
-            hits &= hits - 1;
-            let mut entry = stack_entry(near[lane], node.children[lane]);
-            if !ANY {
-                (nearest, entry) = (nearest.min(entry), nearest.max(entry));
+        };
+        // Every child goes straight to its place, as many from the top as are nearer: no sort, whose jumps cannot be
+        // foreseen. Distances are ≥ 0, so their bits order as they do; the last three tell lanes apart.
+        let order = near.to_array().map(|t| (t.to_bits() & !(WIDTH as u32 - 1)) as i32);
+        let order = i32x8::new(order) | i32x8::new([0, 1, 2, 3, 4, 5, 6, 7]);
+        let (order_of, near) = (order.to_array(), near.to_array());
+        let mut left = hits;
+        for place in 0..count {
+            let lane = left.trailing_zeros() as usize % WIDTH;
+            left &= left - 1;
+            let nearer = if ANY {
+                place
+            } else {
+                (i32x8::splat(order_of[lane]).simd_gt(order).to_bitmask() & hits).count_ones() as usize
+            };
+            if let Some(slot) = slots.get_mut(count - 1 - nearer) {
+                *slot = stack_entry(near[lane], node.children[lane]);
             }
-            self.push(entry);
-            if !ANY {
-                self.sink(base);
-            }
         }
-        Reference(nearest as u32)
-    }
-
-    /// Moves the last entry down to its place among the entries from `base` on, which descend.
-    #[inline(always)]
-    fn sink(&mut self, base: usize) {
-        let Some(entries) = self.entries.get_mut(base..self.len) else { return };
-        let mut place = entries.len() - 1;
-        while place > 0 && entries[place - 1] < entries[place] {
-            entries.swap(place - 1, place);
-            place -= 1;
-        }
+        let nearest = Reference(slots[count - 1] as u32);
+        self.len += count - 1;
+        nearest
     }
 }
 
