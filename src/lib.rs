@@ -105,6 +105,7 @@
 //! * `[DJI2017]` DJI, White paper on D-Log and D-Gamut, 2017.
 //! * `[DLMF]` NIST Digital Library of Mathematical Functions, chapter 8, release 1.2, 2024.
 //! * `[Duff2017]` T. Duff et al., Building an orthonormal basis, revisited, JCGT 6(1), 2017.
+//! * `[DupuyBenyoub2023]` J. Dupuy and A. Benyoub, Sampling visible GGX normals with spherical caps, CGF 42(8), 2023.
 //! * `[E2022]` ASTM E2022, Standard practice for calculation of weighting factors for tristimulus integration, 2016.
 //! * `[E308]` ASTM E308, Standard practice for computing the colors of objects by using the CIE system, 2015.
 //! * `[Ebner1998]` F. Ebner and M. D. Fairchild, Development and testing of a color space (IPT), CIC 6, 1998.
@@ -127,6 +128,7 @@
 //! * `[HachisukaJensen2009]` T. Hachisuka and H. W. Jensen, Stochastic progressive photon mapping, ACM TOG 28(5), 2009.
 //! * `[Haines2019]` E. Haines et al., Precision improvements for ray/sphere intersection, Ray Tracing Gems 7, 2019.
 //! * `[Harris1978]` F. J. Harris, On the use of windows for harmonic analysis with the DFT, Proc. IEEE 66(1), 1978.
+//! * `[Heitz2014]` E. Heitz, Understanding the masking-shadowing function in microfacet-based BRDFs, JCGT 3(2), 2014.
 //! * `[Heitz2019]` E. Heitz, A low-distortion map between triangle and square, 2019.
 //! * `[Hellwig2020]` L. Hellwig and M. D. Fairchild, Using Gaussian spectra to derive a hue-linear color space, J. Percept.
 //!   Imaging 3, 2020.
@@ -223,6 +225,7 @@
 //! * `[Vose1991]` M. D. Vose, A linear algorithm for generating random numbers with a given distribution, IEEE TSE 17(9), 1991.
 //! * `[Wald2007]` I. Wald, On fast construction of SAH-based bounding volume hierarchies, IEEE RT, 2007.
 //! * `[Wald2008]` I. Wald et al., Getting rid of packets, IEEE RT, 2008.
+//! * `[Walter2007]` B. Walter et al., Microfacet models for refraction through rough surfaces, EGSR, 2007.
 //! * `[Wavefront1995]` Wavefront Technologies, Advanced Visualizer Manual, appendix B1, object files, 1995.
 //! * `[Wendland1995]` H. Wendland, Piecewise polynomial, positive definite and compactly supported radial functions, 1995.
 //! * `[Wilkie2014]` A. Wilkie et al., Hero wavelength spectral sampling, CGF 33(4), 2014.

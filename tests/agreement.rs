@@ -185,7 +185,7 @@ fn dispersive_ball() {
     agree(
         "dispersive ball",
         &scene(flint, quad_light()),
-        &[("path", 3072), ("light", 2304), ("merge", 64), ("hero", 2560)],
+        &[("path", 3072), ("light", 2304), ("merge", 64), ("hero", 3200)],
     );
 }
 
@@ -200,7 +200,7 @@ fn absorption_and_metal() {
     let gold =
         json!({ "shape": { "type": "sphere", "center": [-0.25, 0.25, -0.1], "radius": 0.1 }, "material": "metal" });
     scene["objects"].as_array_mut().unwrap().push(gold);
-    agree("absorption and metal", &scene, &[("path", 768), ("light", 3584), ("merge", 72), ("hero", 768)]);
+    agree("absorption and metal", &scene, &[("path", 768), ("light", 3584), ("merge", 128), ("hero", 768)]);
 }
 
 /// A disc of 20° at infinity.
@@ -237,7 +237,7 @@ fn shading_normals() {
     scene["objects"][0]["shape"] = json!({ "type": "triangles",
         "positions": [-0.4, 0, 0.4, 0.4, 0, 0.4, 0.4, 0, -0.4, -0.4, 0, -0.4],
         "normals": [0.3, 1, 0, 0.2, 1, 0.3, -0.4, 1, 0, 0, 1, -0.4], "indices": [0, 1, 2, 0, 2, 3] });
-    agree("shading normals", &scene, &[("path", 512), ("light", 1408), ("merge", 72)]);
+    agree("shading normals", &scene, &[("path", 512), ("light", 1408), ("merge", 128)]);
 }
 
 /// The same radiance from everywhere, focused by a dispersive ball: no next-event estimation on one side, no aim on the other.
@@ -277,5 +277,5 @@ fn light_inside_glass() {
     let light = json!({ "shape": { "type": "sphere", "center": [0.04, 0.33, -0.02], "radius": 0.07 },
                         "emission": { "illuminant": "D65" } });
     let flint = json!({ "type": "dielectric", "ior": { "glass": "SF11" } });
-    agree("light inside glass", &scene(flint, light), &[("path", 512), ("light", 1024), ("merge", 128)]);
+    agree("light inside glass", &scene(flint, light), &[("path", 512), ("light", 1024), ("merge", 224)]);
 }

@@ -100,7 +100,7 @@ fn is_beyond_schema(code: &str, name: &str) -> bool {
             "emission overflows",
             "line in micrometres",
             "sellmeier lengths",
-            "rough glass",
+            "anisotropic glass",
             "spot angles",
             "positions not in threes",
             "indices not in threes",

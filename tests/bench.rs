@@ -93,8 +93,11 @@ fn two_integrators_and_a_command_on_the_same_work() {
     // Rays by kind are known of abbe's runs, not of another program's.
     let budget = |variant: usize, key: &str| variants[variant]["budgets"][2][key].clone();
     let kinds = budget(0, "rays_per_cpu_second_by_kind");
-    let [camera, shadow] = ["camera", "shadow"].map(|kind| kinds[kind].as_f64().unwrap());
-    assert!(camera > shadow && shadow > 0.0 && kinds.get("merging").is_none(), "{kinds}");
+    // Eight fast runs can be over before the clock of the processor ticks.
+    if budget(0, "cpu_seconds").as_f64().unwrap() > 0.0 {
+        let [camera, shadow] = ["camera", "shadow"].map(|kind| kinds[kind].as_f64().unwrap());
+        assert!(camera > shadow && shadow > 0.0 && kinds.get("merging").is_none(), "{kinds}");
+    }
     assert_eq!(budget(0, "lane_occupancy"), 1.0);
     assert!(budget(2, "lane_occupancy").is_null() && budget(2, "rays_per_cpu_second").is_null());
     assert!(out.contains("shadow rays  lanes in use") && budget(0, "peak_memory_bytes").is_u64());

@@ -96,7 +96,7 @@ pub fn geometric_normal(v0: Vec3, v1: Vec3, v2: Vec3) -> Option<DVec3> {
     let cross = double_area_vector(v0, v1, v2);
     let length = cross.length();
     // f32 input: the squared length neither overflows nor vanishes in f64 unless it is exactly 0.
-    (length > 0.0).then(|| cross * length.recip())
+    (length > 0.0).then(|| cross / length)
 }
 
 /// Area, computed in f64 and rounded.

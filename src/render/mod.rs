@@ -254,8 +254,8 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
     fn segment(&self, film: &mut Film, state: &mut RenderState, proceed: &mut dyn FnMut(Progress) -> bool) -> Ending {
         let end = state.segment.samples.end.min(self.settings.samples_per_pixel);
         let mut ending = Ending::Done;
+        let mut started = Instant::now();
         while ending == Ending::Done && state.done.samples < end {
-            let started = Instant::now();
             let samples = state.at_once.clamp(1, end - state.done.samples).min(self.samples_in_time(state));
             if samples == 0 {
                 ending = Ending::Deadline;
@@ -263,11 +263,6 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             }
             let next = state.done.samples + samples;
             self.passes(film, state, next, next == end);
-            // The length of a pass changes no bit: it only decides when to look up.
-            let seconds = started.elapsed().as_secs_f64();
-            let growth = SECONDS_PER_PASS / seconds.max(SHORTEST_PASS);
-            state.at_once = ((samples as f64 * growth.clamp(0.25, 4.0)) as u64).max(1);
-            state.seconds_per_sample = seconds / samples as f64;
             let progress = Progress {
                 samples: next,
                 of: self.settings.samples_per_pixel,
@@ -277,6 +272,12 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             if !proceed(progress) {
                 ending = Ending::Interrupted;
             }
+            // The length of a pass changes no bit: it only decides when to look up.
+            let seconds = started.elapsed().as_secs_f64();
+            started = Instant::now();
+            let growth = SECONDS_PER_PASS / seconds.max(SHORTEST_PASS);
+            state.at_once = ((samples as f64 * growth.clamp(0.25, 4.0)) as u64).max(1);
+            state.seconds_per_sample = seconds / samples as f64;
         }
         if state.done.samples < end {
             self.passes(film, state, state.done.samples, true);

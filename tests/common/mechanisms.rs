@@ -83,14 +83,15 @@ fn materials() -> Value {
         "clay": { "type": "diffuse", "reflectance": { "rgb": [0.7, 0.4, 0.3] }, "two_sided": false },
         "mirror": { "type": "mirror", "reflectance": "dark" },
         "gold": { "type": "conductor", "metal": "Au" },
-        "steel": { "type": "conductor", "eta": 2.5, "k": { "wavelengths_nm": [400, 700], "values": [2.5, 3.5] } },
+        "steel": { "type": "conductor", "eta": 2.5, "k": { "wavelengths_nm": [400, 700], "values": [2.5, 3.5] },
+                   "roughness": 0.2 },
         "flint": { "type": "dielectric", "ior": { "glass": "N-SF11" }, "absorption_per_m": { "name": "paint", "scale": 0.9 } },
         "water": { "type": "dielectric", "ior": { "cauchy_um": [1.32, 0.003] }, "priority": 1, "absorption_per_m": 0.3 },
         "crown": { "type": "dielectric", "ior": { "sellmeier": { "b": [1.03961212, 0.231792344, 1.01046945],
-                   "c_um2": [0.00600069867, 0.0200179144, 103.560653] } } },
+                   "c_um2": [0.00600069867, 0.0200179144, 103.560653] } }, "roughness": 0.05 },
         "plastic": { "type": "dielectric", "ior": { "nd": 1.49, "vd": 57 } },
         "table": { "type": "dielectric", "ior": { "wavelengths_nm": [350, 850], "values": [1.53, 1.51] } },
-        "plain": { "type": "dielectric", "ior": 1.5 }
+        "plain": { "type": "dielectric", "ior": 1.5, "roughness": 0.15 }
     })
 }
 
