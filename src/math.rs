@@ -106,7 +106,7 @@ pub fn ln_gamma(x: f64) -> f64 {
 }
 
 /// Coefficients of sin(πx/4)/x and (cos(πx/4) − 1)/x² in powers of x², minimax on [−1, 1].
-const SIN: [f32; 4] = [0.785_398_1, -0.080_745_37, 0.002_489_872, -3.587_725_6e-5];
+const SIN: [f32; 4] = [std::f32::consts::FRAC_PI_4, -0.080_745_37, 0.002_489_872, -3.587_725_6e-5];
 const COS: [f32; 4] = [-0.308_425_13, 0.015_854_327, -0.000_325_942, 3.531_334_6e-6];
 
 /// Sine and cosine of an angle in eighths of a turn (45°), in [−1, 1]; errors are below 1e-7. Straight-line code for

@@ -13,6 +13,7 @@ use crate::spectrum::SampledSpectrum;
 use glam::Vec3;
 
 /// What a path finds at a surface.
+#[allow(clippy::large_enum_variant, reason = "one at a time lives on the stack of a loop: a box would be slower")]
 #[derive(Debug)]
 pub enum Met {
     /// A boundary that is optically absent; the path is past it.
