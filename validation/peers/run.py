@@ -55,15 +55,17 @@ class Case:
     size: int | None = None  # of the picture, instead of the scene's
     blocks: int = 4
     vary: str | None = None
+    reference: str = "path"
+    peer_share: int = 1  # the peer takes one sample where abbe takes so many: budgets of about the same time
 
 
 SCENES = HERE / "scenes"
 CASES = [
     Case("cornell", ROOT / "scenes" / "cornell.json", "mitsuba", (512, 1024), (32, 128), 400, size=128),
-    Case("glass", SCENES / "glass.json", "mitsuba", (1024, 4096), (32, 128), 512, vary="integrator=auto,path"),
-    Case("gem", SCENES / "gem.json", "mitsuba", (512, 1024), (32, 128), 1024),
+    Case("glass", SCENES / "glass.json", "mitsuba", (512, 8192), (32, 128), 512, vary="integrator=auto,path", reference="auto"),
+    Case("gem", SCENES / "gem.json", "mitsuba", (512, 1024), (32, 128), 512),
     Case("mesh", SCENES / "mesh.json", "mitsuba", (256, 512), (32, 128), 400),
-    Case("flint", SCENES / "flint.json", "raysect", (8192, 256), (4, 16), 8192, blocks=2),
+    Case("flint", SCENES / "flint.json", "raysect", (8192, 256), (1024, 4096), 8192, blocks=2, peer_share=128),
 ]
 
 
@@ -120,8 +122,9 @@ def peer_command(binary, peer, scene, folder):
     return [str(PYTHON), str(HERE / "render_mitsuba.py"), str(xml), "--variant", VARIANT], " --threads {threads}"
 
 
-def against(peer, command, more):
-    return f"{peer}={shlex.join(command)} --spp {{spp}} --seed {{seed}} --out {{out}}{more}"
+def against(peer, command, more, share=1):
+    spp = "{spp}" if share == 1 else f"$(({{spp}} / {share}))"
+    return f"{peer}={shlex.join(command)} --spp {spp} --seed {{seed}} --out {{out}}{more}"
 
 
 def folder_of(case):
@@ -168,9 +171,9 @@ def bench(binary, case):
     folder = folder_of(case)
     with Boxed(case.scene, case.size) as scene:
         command, more = peer_command(binary, case.peer, scene, folder)
-        line = [binary, "bench", str(scene), "--against", against(case.peer, command, more), "-o", str(folder)]
+        line = [binary, "bench", str(scene), "--against", against(case.peer, command, more, case.peer_share), "-o", str(folder)]
         line += ["--from-spp", str(case.spp[0]), "--to-spp", str(case.spp[1]), "--replicates", str(REPLICATES)]
-        line += ["--reference-spp", str(case.reference_spp), "--reference", "path", "--target", "1e-9"]
+        line += ["--reference-spp", str(case.reference_spp), "--reference", case.reference, "--target", "1e-9"]
         line += ["--time-limit", "100000", *(["--vary", case.vary] if case.vary else [])]
         subprocess.run(line, check=True, stdout=subprocess.DEVNULL)
     return json.loads((folder / "bench.json").read_text(encoding="utf-8"))["scenes"][0]
@@ -185,10 +188,6 @@ class Figures:
     fixed: float
     peak: float | None
 
-    @property
-    def spread_of_cost(self):
-        return statistics.stdev(self.cpu_per_spp) / statistics.mean(self.cpu_per_spp)
-
 
 def figures(variant, own_relmse):
     """Errors at the largest budget, and the cost of a sample between the smallest and the largest."""
@@ -202,7 +201,10 @@ def figures(variant, own_relmse):
 
 
 def ratio(ours, theirs):
-    """How many times more efficient the first is, 1 / (relMSE · marginal CPU seconds), with a 95 % range."""
+    """How many times more efficient the first is, 1 / (relMSE · marginal CPU seconds), with a 95 % range; `None` where the
+    clock, or the reference, is too coarse to tell."""
+    if min(ours.relmse + ours.cpu_per_spp + theirs.relmse + theirs.cpu_per_spp) <= 0:
+        return None
     logs = [
         math.log((m * d) / (n * c))
         for n, c, m, d in zip(ours.relmse, ours.cpu_per_spp, theirs.relmse, theirs.cpu_per_spp)
@@ -228,16 +230,17 @@ def rows(case, found, report):
     spp = report["variants"][0]["budgets"][-1]["samples_per_pixel"]
     for name, variant in variants.items():
         ours = figures(variant, own)
-        best, low, high = ratio(ours, theirs)
+        found_ratio = ratio(ours, theirs)
+        told_ratio = "**{:.3g}** ({:.3g}–{:.3g})".format(*found_ratio) if found_ratio else "too short to tell"
         mean = statistics.mean
         efficiency = lambda f: 1 / (mean(f.relmse) * mean(f.cpu_per_spp) * spp)
-        micro = lambda f: mean(f.cpu_per_spp) / pixels * 1e6
+        micro = lambda f, share=1: mean(f.cpu_per_spp) * share / pixels * 1e6
         mebi = lambda f: f"{f.peak / 2**20:.0f}" if f.peak else "–"
         yield [
-            case.name, "auto" if name == "abbe" else name, case.peer, f"{report['width']}×{report['height']}, {spp}",
+            case.name, "auto" if name == "abbe" else name, case.peer, f"{report['width']}×{report['height']}, {spp}" + (f" and {spp // case.peer_share}" if case.peer_share > 1 else ""),
             f"{mean(ours.relmse):.2e}", f"{mean(theirs.relmse):.2e}",
-            f"{micro(ours):.2f}", f"{micro(theirs):.2f}",
-            f"{efficiency(ours):.3g}", f"{efficiency(theirs):.3g}", f"**{best:.2f}** ({low:.2f}–{high:.2f})",
+            f"{micro(ours):.2f}", f"{micro(theirs, case.peer_share):.2f}",
+            f"{efficiency(ours):.3g}", f"{efficiency(theirs):.3g}", told_ratio,
             f"{ours.fixed + report['compile_seconds']:.2f}", f"{theirs.fixed:.2f}", mebi(ours), mebi(theirs),
             told(found) if found else "not checked",
         ]  # fmt: skip
