@@ -27,8 +27,9 @@
 //! let parsed = description::parse_str(text, "example.json".as_ref())?;
 //! let compiled = compile(&parsed.description)?;
 //! let needed = SceneFeatures { dispersion: false, interiors: false };
-//! let (film, statistics) = abbe::render::render(&compiled.scene, &compiled.render, &compiled.film, needed, &mut |_| true);
-//! assert_eq!((statistics.camera_paths, film.non_finite_samples), (256, 0));
+//! let render = abbe::render::render(&compiled.scene, &compiled.render, &compiled.film, needed, &mut |_| true);
+//! let film = &render.film;
+//! assert_eq!((render.statistics.camera_paths, film.non_finite_samples), (256, 0));
 //! let picture = abbe::develop::develop(&film.to_xyz(), film.width(), None, abbe::develop::Tonemap::Srgb);
 //! assert_eq!(picture.rgb8.len(), 64);
 //! # Ok(())

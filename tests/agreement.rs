@@ -277,5 +277,5 @@ fn light_inside_glass() {
     let light = json!({ "shape": { "type": "sphere", "center": [0.04, 0.33, -0.02], "radius": 0.07 },
                         "emission": { "illuminant": "D65" } });
     let flint = json!({ "type": "dielectric", "ior": { "glass": "SF11" } });
-    agree("light inside glass", &scene(flint, light), &[("path", 512), ("light", 1024), ("merge", 224)]);
+    agree("light inside glass", &scene(flint, light), &[("path", 512), ("light", 1024), ("merge", 640)]);
 }

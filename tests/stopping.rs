@@ -118,7 +118,7 @@ fn adaptive_sampling_is_unbiased_where_pixels_are_spiky() {
     let (fixed, _) = estimates(false, 1000);
     let (adaptive, samples) = estimates(true, 5000);
     let (least, most) = (samples.iter().min().unwrap(), samples.iter().max().unwrap());
-    assert!(*least < 20 && *most > 64, "samples from {least} to {most}: nothing was adapted");
+    assert!(*least < 20 && *most > 48, "samples from {least} to {most}: nothing was adapted");
     let (a, b) = (fixed[SIDE * SIDE], adaptive[SIDE * SIDE]);
     let (off, sigma) = (b.mean / a.mean - 1.0, a.error.hypot(b.error) / a.mean);
     println!("adaptive against fixed: {:+.3} % ± {:.3} %; samples {least} to {most}", 100.0 * off, 100.0 * sigma);
@@ -150,7 +150,7 @@ fn a_target_error_is_reached() {
         let rendering = to_the_end(&compiled);
         let bound = rendering.statistics.error_bound.unwrap();
         assert!(rendering.statistics.complete && bound < TARGET);
-        assert!(rendering.statistics.samples < 4096, "{} samples", rendering.statistics.samples);
+        assert!(rendering.statistics.samples < 1 << 14, "{} samples", rendering.statistics.samples);
         let film = rendering.film.to_xyz();
         let squares = film.iter().flatten().zip(reference.iter().flatten());
         let error = squares.map(|(i, r)| (i - r) * (i - r) / (r * r + 0.01 * mean * mean)).sum::<f64>()

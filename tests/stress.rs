@@ -53,7 +53,7 @@ fn slabs_of_every_contrast() {
                 vec![slab("glass", -0.01, 0.0), plane(-0.5, true)],
             );
             let (exact, _) = stack(&[Layer { index, thickness: 0.01, absorption: 0.0 }], sin);
-            let seen = Estimate::over_seeds(&scene, 6, mean_y);
+            let seen = Estimate::over_seeds(&scene, 10, mean_y);
             seen.check(&format!("slab of {index} at {degrees}°"), exact, 2e-2);
         }
     }

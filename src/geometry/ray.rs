@@ -44,7 +44,7 @@ mod tests {
     #[test]
     fn origins_are_rounded_away() {
         for i in 0..4000i32 {
-            let size = crate::math::pow(2.0, f64::from(i % 280 - 149)) as f32;
+            let size = crate::math::pow(2.0, f64::from(i % 270 - 149)) as f32;
             let point = Vec3::new((i % 7 - 3) as f32, (i % 13 - 6) as f32, 0.0) * size;
             let normal = Vec3::new((i % 5 - 2) as f32, 0.0, (i % 3 - 1) as f32 + 0.5).normalize();
             let direction = Vec3::new(0.3, (i % 2) as f32, -0.4);
