@@ -97,7 +97,7 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
             keep_with_lanes(walk, lanes, &mut radiance);
             let wo = -walk.ray.direction;
             let (before, depth) = (seen, walk.depth);
-            let glossy = bsdf.is_rough() && object.material.focuses() && before != Seen::Nothing;
+            let glossy = bsdf.is_rough() && object.material.focuses() && !matches!(before, Seen::Nothing);
             if !bsdf.is_specular() {
                 seen = match seen {
                     Seen::Nothing if bsdf.is_rough() => Seen::Nothing,
@@ -117,7 +117,8 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
                 }
             }
             // The first surface seen that is rough is known by how likely the path leaves it as it does.
-            let first = (bsdf.is_rough() && before == Seen::Nothing).then_some((&surface, &bsdf, &frame, wo, depth));
+            let first =
+                (bsdf.is_rough() && matches!(before, Seen::Nothing)).then_some((&surface, &bsdf, &frame, wo, depth));
             match walk.bounce(&surface, &bsdf, &frame, [u[0], u[1], u[7]]) {
                 Bounce::Ended => break,
                 Bounce::Along(None) => origin = Origin::Delta,
@@ -156,6 +157,7 @@ fn keep_with_lanes(walk: &Walk, lanes: Lanes, radiance: &mut SampledSpectrum) {
 
 /// What is known of a rough surface, the first that is not specular, once the path has left it: met at `depth` and seen
 /// from `wo`.
+#[inline(never)]
 fn seen_rough(
     walk: &Walk,
     techniques: &Techniques,
@@ -335,6 +337,7 @@ fn light_from<const INTERIORS: bool>(
 }
 
 /// The same at a rough boundary, from either side of it, as radiance on the side of `wo`.
+#[inline(never)]
 fn light_at_boundary<const INTERIORS: bool>(
     walk: &mut Walk,
     Receiver { surface, frame, wo, .. }: Receiver,

@@ -81,6 +81,7 @@ impl Walk<'_> {
         }
     }
 
+    #[inline(never)]
     fn meet_rough_dielectric(&mut self, surface: &Surface, medium: MediumId, ggx: Ggx, frame: Frame) -> Met {
         let (boundary, known) = self.boundary(surface, medium);
         let Some(boundary) = boundary else {
@@ -113,6 +114,7 @@ impl Walk<'_> {
         Bounce::Along(sample.pdf)
     }
 
+    #[inline(never)]
     fn bounce_off_boundary(
         &mut self,
         surface: &Surface,
