@@ -133,7 +133,7 @@ fn bsdfs(criterion: &mut Criterion) {
         let boundary = Dielectric { from: Indices::AIR, to };
         each(&mut group, &format!("dielectric, {name}: choice and direction"), &points, |u| {
             let incidence = Incidence::new(-cosine_hemisphere([u[0], u[1]]), DVec3::Z);
-            let sample = boundary.sample::<true>(&incidence, Lanes::Shared, grey, u[2]);
+            let sample = boundary.divide::<true>(&incidence, Lanes::Shared, grey).choose(u[2]);
             let direction =
                 if sample.refracted { boundary.refracted(&incidence, 3) } else { Some(incidence.reflected()) };
             (sample.weight, direction)

@@ -185,7 +185,7 @@ fn dispersive_ball() {
     agree(
         "dispersive ball",
         &scene(flint, quad_light()),
-        &[("path", 3072), ("light", 2304), ("merge", 64), ("hero", 3200)],
+        &[("path", 3072), ("light", 2304), ("merge", 128), ("hero", 3200)],
     );
 }
 
@@ -200,7 +200,7 @@ fn absorption_and_metal() {
     let gold =
         json!({ "shape": { "type": "sphere", "center": [-0.25, 0.25, -0.1], "radius": 0.1 }, "material": "metal" });
     scene["objects"].as_array_mut().unwrap().push(gold);
-    agree("absorption and metal", &scene, &[("path", 768), ("light", 3584), ("merge", 128), ("hero", 768)]);
+    agree("absorption and metal", &scene, &[("path", 768), ("light", 3584), ("merge", 256), ("hero", 768)]);
 }
 
 /// A disc of 20° at infinity.

@@ -407,7 +407,10 @@ fn dielectric_choice() {
             let one = SampledSpectrum::ONE.only(lane);
             let reflected = (0..SAMPLES / 10)
                 .filter(|&i| {
-                    !boundary.sample::<true>(&incidence, Lanes::Only(lane), one, uniform(i, lane as u64)).refracted
+                    !boundary
+                        .divide::<true>(&incidence, Lanes::Only(lane), one)
+                        .choose(uniform(i, lane as u64))
+                        .refracted
                 })
                 .count() as u64;
             let f = common::fresnel(sin, 1.0, glass.eta[lane]);

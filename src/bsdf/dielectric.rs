@@ -65,13 +65,22 @@ impl Incidence {
     }
 }
 
+/// How the flux of a path is divided at the boundary. Radiance changes by (η_from / η_to)² besides where it is refracted; as
+/// that telescopes along a path, it is applied where light is collected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Division {
+    /// Share of each lane's flux that is reflected: its own Fₖ.
+    pub reflectance: SampledSpectrum,
+    /// Share of the flux of all lanes together that is reflected, q = Σ βₖFₖ / Σ βₖ with throughputs βₖ.
+    pub reflected: f32,
+}
+
 /// What becomes of a path at the boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DielectricSample {
     /// Whether it crosses; see [`Dielectric::refracted`]. Otherwise it is [`Incidence::reflected`].
     pub refracted: bool,
-    /// Share of the flux that each lane carries on, divided by the probability of the choice. Radiance changes by
-    /// (η_from / η_to)² besides; as that telescopes along a path, it is applied where light is collected.
+    /// Share of the flux that each lane carries on, divided by the probability of the choice.
     pub weight: SampledSpectrum,
 }
 
@@ -86,21 +95,15 @@ impl Dielectric {
         self.from.dispersive || self.to.dispersive
     }
 
-    /// Chooses between reflection and refraction by `u` in [0, 1).
-    ///
-    /// Lanes that share the ray share the choice. A reflection is drawn with q = Σ βₖFₖ / Σ βₖ (`throughput` β), and each
-    /// lane keeps its own Fₖ / q or (1 − Fₖ) / (1 − q): no lane is lost, and lanes beyond their critical angle have weight
-    /// 0 on the other side. A lane on its own compares `u` with its own F, so that its weight is 1 whatever happens, and
-    /// lanes with the same `u` part only where their F differ.
-    pub fn sample<const DISPERSION: bool>(
+    /// How flux is divided between reflection and refraction.
+    pub fn divide<const DISPERSION: bool>(
         &self,
         incidence: &Incidence,
         lanes: Lanes,
         throughput: SampledSpectrum,
-        u: f32,
-    ) -> DielectricSample {
+    ) -> Division {
         let f = |lane: usize| reflectance(optics::refract(incidence.cos_theta, self.from.eta[lane], self.to.eta[lane]));
-        let (reflectance, q) = match lanes {
+        let (reflectance, reflected) = match lanes {
             Lanes::Shared if DISPERSION && self.is_dispersive() => {
                 let reflectance = SampledSpectrum::from_fn(f);
                 let total = throughput.sum();
@@ -110,11 +113,7 @@ impl Dielectric {
             Lanes::Shared => (SampledSpectrum::splat(f(0)), f(0)),
             Lanes::Bundled(lane) | Lanes::Only(lane) => (SampledSpectrum::splat(f(lane)), f(lane)),
         };
-        if u < q {
-            DielectricSample { refracted: false, weight: reflectance * (1.0 / q) }
-        } else {
-            DielectricSample { refracted: true, weight: (SampledSpectrum::ONE - reflectance) * (1.0 / (1.0 - q)) }
-        }
+        Division { reflectance, reflected }
     }
 
     /// The direction in which a lane is refracted; `None` beyond its critical angle.
@@ -128,6 +127,28 @@ impl Dielectric {
         let Incidence { direction, normal, cos_theta } = *incidence;
         let refraction = optics::refract(cos_theta, from, to)?;
         Some(refraction.direction(direction, normal, cos_theta, from, to))
+    }
+}
+
+impl Division {
+    /// Share of each lane's flux that is refracted.
+    pub fn transmittance(&self) -> SampledSpectrum {
+        SampledSpectrum::ONE - self.reflectance
+    }
+
+    /// Chooses between reflection and refraction by `u` in [0, 1).
+    ///
+    /// Lanes that share the ray share the choice. A reflection is drawn with q, and each lane keeps its own Fₖ / q or
+    /// (1 − Fₖ) / (1 − q): no lane is lost, and lanes beyond their critical angle have weight 0 on the other side. A lane on
+    /// its own compares `u` with its own F, so that its weight is 1 whatever happens, and lanes with the same `u` part only
+    /// where their F differ.
+    pub fn choose(&self, u: f32) -> DielectricSample {
+        let q = self.reflected;
+        if u < q {
+            DielectricSample { refracted: false, weight: self.reflectance * (1.0 / q) }
+        } else {
+            DielectricSample { refracted: true, weight: self.transmittance() * (1.0 / (1.0 - q)) }
+        }
     }
 }
 
@@ -160,7 +181,7 @@ mod tests {
                     let (mut reflected, mut refracted) = (0.0, 0.0);
                     for i in 0..n {
                         let u = (i as f32 + 0.5) / n as f32;
-                        let s = boundary.sample::<true>(&incidence, lanes, beta, u);
+                        let s = boundary.divide::<true>(&incidence, lanes, beta).choose(u);
                         let w = f64::from(s.weight.lane(lane)) / f64::from(n);
                         if !s.refracted {
                             reflected += w;
@@ -187,8 +208,8 @@ mod tests {
             let incidence = Incidence::new(Vec3::new(0.01 * i as f32, 0.1, -1.0).normalize(), DVec3::Z);
             let u = (i as f32 * 0.37).fract();
             let beta = SampledSpectrum::from_fn(|k| k as f32);
-            let a = boundary.sample::<true>(&incidence, Lanes::Shared, beta, u);
-            assert_eq!(a, boundary.sample::<false>(&incidence, Lanes::Shared, beta, u));
+            let a = boundary.divide::<true>(&incidence, Lanes::Shared, beta).choose(u);
+            assert_eq!(a, boundary.divide::<false>(&incidence, Lanes::Shared, beta).choose(u));
         }
     }
 }

@@ -12,7 +12,7 @@ mod rough_conductor;
 mod rough_dielectric;
 
 pub use conductor::Conductor;
-pub use dielectric::{Dielectric, DielectricSample, Incidence, Indices, Lanes};
+pub use dielectric::{Dielectric, DielectricSample, Division, Incidence, Indices, Lanes};
 pub use diffuse::Diffuse;
 pub use microfacet::{Ggx, lit_of_visible};
 pub use mirror::Mirror;

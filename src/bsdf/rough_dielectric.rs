@@ -211,7 +211,7 @@ impl RoughDielectric {
         u: f32,
     ) -> Option<RoughSample> {
         let incidence = Incidence::of(-view.wo, m);
-        let choice = self.boundary.sample::<true>(&incidence, Lanes::Shared, throughput, u);
+        let choice = self.boundary.divide::<true>(&incidence, Lanes::Shared, throughput).choose(u);
         if !choice.refracted {
             let wi = optics::reflect(-view.wo, m);
             let lobe = self.lobe_towards(view, wi, false)?;

@@ -6,8 +6,10 @@ use crate::film::Film;
 /// Variance of a pixel relative to its brightness squared beyond which it counts as this: the error of a pixel that has
 /// hardly been hit says little.
 const LARGEST: f64 = 1.0;
-/// Bounds of the number of light paths for each camera path, and of passes of merging for each sample of a pixel.
-const BOUNDS: [f64; 2] = [0.25, 4.0];
+/// Bounds of the number of light paths for each camera path. What is found rarely must be looked for all the same.
+const LIGHT_BOUNDS: [f64; 2] = [1.0 / 16.0, 16.0];
+/// Bounds of the number of passes of merging for each sample of a pixel.
+const MERGED_BOUNDS: [f64; 2] = [1.0 / 32.0, 4.0];
 
 /// Numbers relative to those of camera paths.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,19 +33,19 @@ pub struct Spent {
 
 impl Allocation {
     /// Before anything is known.
-    pub const START: Self = Self { light: 1.0, merged: 0.25 };
+    pub const START: Self = Self { light: 0.25, merged: 0.25 };
 
     /// The best split, after what has been measured with this one from a film and the rays that it took.
     pub fn next(self, film: &Film, spent: &Spent) -> Self {
         let Some(variances) = film.relative_variances(LARGEST) else { return self };
         // With n samples at cost C in all and variance V of their mean: V n / (C / n) is V n² / C.
-        let better = |ratio: f64, variance: f64, rays: u64| {
+        let better = |ratio: f64, variance: f64, rays: u64, [low, high]: [f64; 2]| {
             let squared = ratio * ratio * variance * spent.camera as f64 / (variances.camera * rays as f64);
-            if squared.is_finite() { squared.sqrt().clamp(BOUNDS[0], BOUNDS[1]) } else { ratio }
+            if squared.is_finite() { squared.sqrt().clamp(low, high) } else { ratio }
         };
         Self {
-            light: better(self.light, variances.light, spent.light),
-            merged: better(self.merged, variances.merged, spent.merged),
+            light: better(self.light, variances.light, spent.light, LIGHT_BOUNDS),
+            merged: better(self.merged, variances.merged, spent.merged, MERGED_BOUNDS),
         }
     }
 }

@@ -1,10 +1,11 @@
 //! Light paths, splatted where the camera sees them.
 
+use super::fork::Branching;
 use super::guide::Guide;
 use super::path::{camera_density, rough_camera_density};
 use super::scatter::{Bounce, Met};
 use super::techniques::{LightPathDensity, Techniques};
-use super::walk::{Crossing, Parting, Walk};
+use super::walk::{Crossing, Walk};
 use super::workspace::Workspace;
 use crate::bsdf::Bsdf;
 use crate::film::{Filter, Sensor, Splat};
@@ -24,8 +25,8 @@ pub struct LightTracer<'a> {
     /// Whether they are aimed at what can focus light and followed for what they own, see [`super::techniques`], or cover
     /// everything.
     pub caustics_only: bool,
-    /// What lanes do where they part.
-    pub parting: Parting,
+    /// Where paths branch.
+    pub branching: Branching,
     /// Largest number of scattering events.
     pub max_depth: u32,
 }
@@ -123,9 +124,12 @@ impl LightTracer<'_> {
             emission,
         };
         let ray = Ray { origin, direction: emission.direction };
-        let mut walk = Walk::start(scene, workspace, ray, (hero, self.parting), (sobol, index));
+        let mut walk = Walk::start(scene, workspace, ray, (hero, self.branching), (sobol, index));
         collector.leave::<INTERIORS>(&mut walk, &start);
         self.follow::<DISPERSION, INTERIORS>(&mut walk, &start, First::Nothing, collector);
+        while walk.resume() {
+            self.follow::<DISPERSION, INTERIORS>(&mut walk, &start, First::Specular, collector);
+        }
     }
 
     /// Follows a path from surface to surface.

@@ -5,6 +5,7 @@
 //! nothing is blurred in wavelength. The radius shrinks from pass to pass: the mean of all passes converges, with an error
 //! that is in part a blur by the radius.
 
+use super::fork::Branching;
 use super::light::{Arrival, Collector, First, LightTracer, Start};
 use super::passes::{tile_pixels, tiles};
 use super::scatter::{Bounce, Met};
@@ -147,7 +148,7 @@ impl<const DISPERSION: bool, const INTERIORS: bool> Renderer<'_, DISPERSION, INT
         let mut workspace = Workspace::new(self.scene);
         let (width, height) = (self.film.width, self.film.height);
         let (across, down) = (width.min(PROBES), height.min(PROBES));
-        let (mut seen, mut footprint) = (0u64, 0.0);
+        let (mut pixels, mut seen, mut footprint) = (0u64, 0u64, 0.0);
         for probe in 0..across * down {
             let (x, y) = (probe % across * width / across, probe / across * height / down);
             let wavelengths = self.scene.wavelengths.sample(0.5);
@@ -158,11 +159,12 @@ impl<const DISPERSION: bool, const INTERIORS: bool> Renderer<'_, DISPERSION, INT
                 found |= !walk.throughput.is_zero();
                 seen += 1;
             });
+            pixels += u64::from(found);
         }
         if seen == 0 {
             return (None, workspace.counters);
         }
-        let share = (seen as f64 / f64::from(across * down)).min(1.0);
+        let share = pixels as f64 / f64::from(across * down);
         let photon_paths = (share * (u64::from(width) * u64::from(height)) as f64) as u64;
         let merging = Merging {
             radius: FIRST_RADIUS_PIXELS * (footprint / seen as f64) as f32,
@@ -224,7 +226,7 @@ impl<const DISPERSION: bool, const INTERIORS: bool> Renderer<'_, DISPERSION, INT
             scene: self.scene,
             guide,
             caustics_only: true,
-            parting: Parting::Ways(PHOTON_WAYS),
+            branching: Branching { parting: Parting::Ways(PHOTON_WAYS), ..self.plan.light },
             max_depth: self.settings.max_depth,
         };
         let sobol = Sobol::new(mix(self.settings.seed) ^ (u64::MAX >> 2));
@@ -294,9 +296,11 @@ impl<const DISPERSION: bool, const INTERIORS: bool> Renderer<'_, DISPERSION, INT
         let mut walk = self.camera_walk(workspace, pixel, wavelengths, u, (sobol, pass));
         let camera_indices = if INTERIORS { Some(path::medium_indices(&mut walk)) } else { None };
         let (techniques, max_depth) = (&self.plan.techniques, self.settings.max_depth);
-        follow_specular::<DISPERSION, INTERIORS>(&mut walk, techniques, max_depth, &mut |walk, vertex| {
-            visit(walk, vertex, &camera_indices);
-        });
+        let mut visit = |walk: &mut Walk, vertex: Vertex| visit(walk, vertex, &camera_indices);
+        follow_specular::<DISPERSION, INTERIORS>(&mut walk, techniques, max_depth, &mut visit);
+        while walk.resume() {
+            follow_specular::<DISPERSION, INTERIORS>(&mut walk, techniques, max_depth, &mut visit);
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 mod adaptive;
 mod allocation;
 mod baseline;
+mod fork;
 mod guide;
 mod light;
 mod merge;

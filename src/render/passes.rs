@@ -2,6 +2,7 @@
 //! their order.
 
 use super::adaptive::Adaptive;
+use super::fork::Branching;
 use super::light::{LightTracer, Splatter};
 use super::schedule::Segment;
 use super::techniques::Techniques;
@@ -39,7 +40,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             |pixel: u32| stage.map_or(samples.clone(), |adaptive| adaptive.samples(pixel, taken.clone(), length));
         // Tiles borrow their rows from the film: each works on a copy of its pixels.
         let all = film.camera_mut();
-        let stream = (mix(self.settings.seed), self.plan.camera_parting);
+        let stream = (mix(self.settings.seed), self.plan.camera);
         let results: Vec<TileResult> = tiles(self.film)
             .into_par_iter()
             .map_init(
@@ -82,17 +83,17 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         workspace: &mut Workspace,
         pixel: u32,
         sample: u64,
-        (seed, parting): (u64, Parting),
+        (seed, branching): (u64, Branching),
         sums: &mut PixelSums,
     ) -> bool {
         let replicate = (sample % CAMERA_REPLICATES as u64) as usize;
         let index = sample / CAMERA_REPLICATES as u64;
         let sobol = Sobol::new(seed ^ (u64::from(pixel) << 8 | replicate as u64));
         let u = sobol.group(index, 0);
-        let baseline = parting == Parting::Terminate;
+        let baseline = branching.parting == Parting::Terminate;
         let wavelengths = if baseline { baseline::wavelengths(u[2]) } else { self.scene.wavelengths.sample(u[2]) };
         let mut walk = self.camera_walk(workspace, pixel, wavelengths, u, (sobol, index));
-        walk.parting = parting;
+        (walk.parting, walk.least_share) = (branching.parting, branching.least_share);
         if baseline {
             (walk.hero, walk.throughput) = (0, baseline::throughput());
         }
@@ -124,7 +125,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 None => workspace.interiors.reset(&self.scene.interiors_at(ray.origin)),
             }
         }
-        Walk::start(self.scene, workspace, ray, (hero, self.plan.camera_parting), random)
+        Walk::start(self.scene, workspace, ray, (hero, self.plan.camera), random)
     }
 
     pub fn xyz(&self, wavelengths: &Wavelengths, radiance: SampledSpectrum) -> [f64; 3] {
@@ -138,7 +139,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             scene: self.scene,
             guide: techniques.guide().expect("a plan with light paths"),
             caustics_only: !matches!(techniques, Techniques::Light { .. }),
-            parting: self.plan.light_parting,
+            branching: self.plan.light,
             max_depth: self.settings.max_depth,
         }
     }

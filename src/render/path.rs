@@ -28,7 +28,12 @@ pub fn radiance<const DISPERSION: bool, const INTERIORS: bool>(
 ) -> SampledSpectrum {
     let camera_indices = if INTERIORS { Some(medium_indices(walk)) } else { None };
     let context = Context { techniques, max_depth, camera_indices };
-    follow::<DISPERSION, INTERIORS>(walk, &context, Origin::Delta, Seen::Nothing, None)
+    let mut radiance = follow::<DISPERSION, INTERIORS>(walk, &context, Origin::Delta, Seen::Nothing, None);
+    while walk.resume() {
+        let [_, _, a, b, ..] = walk.last_random();
+        radiance += follow::<DISPERSION, INTERIORS>(walk, &context, Origin::Delta, Seen::Nothing, Some([a, b]));
+    }
+    radiance
 }
 
 /// What stays the same along a path.

@@ -2,6 +2,7 @@
 //! start.
 
 use super::Renderer;
+use super::fork::Branching;
 use super::guide::Experience;
 use super::light::{LightTracer, Splatter};
 use super::passes::{block, block_count};
@@ -77,7 +78,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
     /// The plan of this renderer, bettered by a pilot if that pays.
     pub fn piloted(self) -> (Self, Counters) {
         let light = matches!(self.plan.techniques, Techniques::CameraAndLight { .. });
-        let bundles = self.scene.features.dispersion && matches!(self.plan.camera_parting, Parting::Ways(_));
+        let bundles = self.scene.features.dispersion && matches!(self.plan.camera.parting, Parting::Ways(_));
         if self.settings.samples_per_pixel < LEAST_SAMPLES || !(light || bundles) || self.light_only() {
             return (self, Counters::default());
         }
@@ -92,10 +93,11 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         let best_camera = best(
             camera.iter().map(|t| t.variance(&brightness, |square| self.pilot_pixel(square)) * t.cost_of_a_path()),
         );
-        let mut plan = Plan { camera_parting: Parting::Ways(ways[best_camera]), ..self.plan.clone() };
+        let mut plan = self.plan.clone();
+        plan.camera.parting = Parting::Ways(ways[best_camera]);
         if light {
             let best_light = best(lights.iter().map(|t| t.mean_square(&brightness) * t.cost_of_a_path()));
-            plan.light_parting = Parting::Ways(ways[best_light]);
+            plan.light.parting = Parting::Ways(ways[best_light]);
             self.learn_guide(&mut plan, &lights, &brightness);
         }
         (Self { plan, ..self }, counters)
@@ -145,7 +147,8 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                         let pixel = self.pilot_pixel(row * across + column);
                         std::array::from_fn(|sample| {
                             let mut sums = PixelSums::default();
-                            let stream = (self.pilot_seed(), Parting::Ways(ways));
+                            let branching = Branching { parting: Parting::Ways(ways), ..self.plan.camera };
+                            let stream = (self.pilot_seed(), branching);
                             self.camera_sample(workspace, pixel, sample as u64, stream, &mut sums);
                             std::array::from_fn(|c| sums.sum.iter().map(|s| s[c]).sum())
                         })
@@ -168,7 +171,8 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 || Workspace::new(self.scene),
                 |workspace, index| {
                     workspace.counters = Counters::default();
-                    let tracer = LightTracer { parting: Parting::Ways(ways), ..self.light_tracer() };
+                    let branching = Branching { parting: Parting::Ways(ways), ..self.plan.light };
+                    let tracer = LightTracer { branching, ..self.light_tracer() };
                     let mut splatter = Splatter::new(&self.sensor, &filter, &self.plan.techniques);
                     let paths = block(index)
                         .filter_map(|index| {

@@ -1,6 +1,7 @@
 //! What paths do at surfaces other than smooth boundaries: how the surface scatters, where the path goes on, and what is
 //! between it and a light or the camera.
 
+use super::fork::NEVER;
 use super::walk::{Crossing, Parting, Walk};
 use super::workspace::Workspace;
 use crate::bsdf::{
@@ -98,6 +99,9 @@ impl Walk<'_> {
 
     /// Scatters the path at a surface.
     pub fn bounce(&mut self, surface: &Surface, bsdf: &Bsdf, frame: &Frame, u: [f32; 3]) -> Bounce {
+        if !bsdf.is_specular() {
+            self.least_share = NEVER;
+        }
         if let Bsdf::RoughDielectric(boundary) = bsdf {
             return self.bounce_off_boundary(surface, boundary, frame, u);
         }
@@ -220,7 +224,7 @@ impl Walk<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::render::{path, techniques::Techniques, workspace::Workspace};
+    use crate::render::{fork::Branching, path, techniques::Techniques, workspace::Workspace};
     use crate::sampling::{Sobol, mix};
     use crate::scene::Compiled;
     use crate::spectrum::LANES;
@@ -273,7 +277,8 @@ mod tests {
             workspace.interiors.reset(&[]);
             let hero = (u[5] * LANES as f32) as usize;
             let ways = if treatment == Treatment::Parting { 8 } else { 1 };
-            let mut walk = Walk::start(scene, &mut workspace, ray, (hero, Parting::Ways(ways)), (sobol, 0));
+            let branching = Branching { parting: Parting::Ways(ways), least_share: NEVER };
+            let mut walk = Walk::start(scene, &mut workspace, ray, (hero, branching), (sobol, 0));
             if treatment == Treatment::Single {
                 walk.leave_to_hero();
             }

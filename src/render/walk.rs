@@ -1,7 +1,8 @@
 //! What camera paths and light paths have in common: a ray that carries lanes through surfaces and media.
 
+use super::fork::Branching;
 use super::workspace::{Interiors, Workspace};
-use crate::bsdf::{Dielectric, Incidence, Lanes};
+use crate::bsdf::{Dielectric, DielectricSample, Incidence, Lanes};
 use crate::geometry::Ray;
 use crate::optics;
 use crate::sampling::{DIMENSIONS, Sobol};
@@ -42,6 +43,8 @@ pub struct Walk<'a> {
     pub odds: SampledSpectrum,
     /// What happens where lanes part.
     pub parting: Parting,
+    /// Where the path forks, see [`super::fork`].
+    pub least_share: f32,
     /// Scattering events so far.
     pub depth: u32,
     /// Boundaries crossed so far that did nothing.
@@ -99,16 +102,22 @@ impl<'a> Walk<'a> {
         scene: &'a Scene,
         workspace: &'a mut Workspace,
         ray: Ray,
-        (hero, parting): (usize, Parting),
+        (hero, Branching { parting, least_share }): (usize, Branching),
         (sobol, index): (Sobol, u64),
     ) -> Self {
         let (throughput, odds, lanes) = (SampledSpectrum::ONE, SampledSpectrum::ONE, Lanes::Shared);
-        Self { scene, workspace, ray, throughput, lanes, hero, odds, parting, depth: 0, passed: 0, sobol, index }
+        let (depth, passed) = (0, 0);
+        Self { scene, workspace, ray, throughput, lanes, hero, odds, parting, least_share, depth, passed, sobol, index }
     }
 
     /// The eight random numbers of the current vertex.
     pub fn random(&self) -> [f32; DIMENSIONS] {
         self.sobol.group(self.index, self.depth + 1)
+    }
+
+    /// Those of the vertex that the ray under way left.
+    pub fn last_random(&self) -> [f32; DIMENSIONS] {
+        self.sobol.group(self.index, self.depth)
     }
 
     /// The first surface ahead; light is absorbed on the way there.
@@ -163,7 +172,13 @@ impl<'a> Walk<'a> {
         let entering = surface.geometric.dot(self.ray.direction.as_dvec3()) < 0.0;
         let incidence =
             Incidence::new(self.ray.direction, if entering { surface.geometric } else { -surface.geometric });
-        let sample = boundary.sample::<DISPERSION>(&incidence, self.lanes, self.throughput, u);
+        let division = boundary.divide::<DISPERSION>(&incidence, self.lanes, self.throughput);
+        let sample = if self.forks(division.reflected) {
+            self.put_aside(surface.spawn(incidence.reflected()), division.reflectance);
+            DielectricSample { refracted: true, weight: division.transmittance() }
+        } else {
+            division.choose(u)
+        };
         self.throughput *= sample.weight;
         self.depth += 1;
         if !sample.refracted {
@@ -270,13 +285,7 @@ impl<'a> Walk<'a> {
         if self.throughput.max() < NEGLIGIBLE {
             return false;
         }
-        // The mean over lanes counts a lane that stands for all like all that share the ray. One of a bundle is followed as
-        // often as it would be if it were alone.
-        let carried = match self.lanes {
-            Lanes::Shared | Lanes::Only(_) => self.throughput.mean(),
-            Lanes::Bundled(lane) => self.throughput.lane(lane),
-        };
-        let survival = carried * (1.0 / ROULETTE_THROUGHPUT);
+        let survival = self.carried() / self.least_share.min(ROULETTE_THROUGHPUT);
         if survival >= 1.0 {
             return true;
         }

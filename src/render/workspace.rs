@@ -1,6 +1,7 @@
 //! What a thread keeps from path to path, so that no path allocates: spectra at the path's wavelengths, and the list of
 //! transparent objects that it is inside of.
 
+use super::fork::Branches;
 use super::profile::TimedRays;
 use super::walk::Bundle;
 use crate::bsdf::Indices;
@@ -22,6 +23,8 @@ pub struct Workspace {
     pub beyond: Interiors,
     /// Where the path's lanes have parted.
     pub bundle: Bundle,
+    /// Where it has forked.
+    pub branches: Branches,
     /// What has been counted.
     pub counters: Counters,
 }
@@ -92,6 +95,7 @@ impl Workspace {
             shadow_interiors: Interiors::default(),
             beyond: Interiors::default(),
             bundle: Bundle::default(),
+            branches: Branches::default(),
             counters: Counters::default(),
         }
     }
