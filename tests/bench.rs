@@ -111,6 +111,16 @@ fn two_integrators_and_a_command_on_the_same_work() {
     let html = folder.read("out/bench.html");
     assert_eq!((html.matches("<svg").count(), html.matches("data:image/png;base64,").count()), (2, 7));
     assert!(!html.contains("http://") || html.matches("http").all(|_| html.contains("www.w3.org/2000/svg")));
+    // The plot over time stands alone too: a name space, a size, a white ground, the legend; nothing from elsewhere.
+    let svg = folder.read("out/ball.svg");
+    assert!(svg.starts_with("<svg width=\"560\" height=") && svg.ends_with("</svg>\n"), "{svg}");
+    assert!(svg.contains("xmlns=\"http://www.w3.org/2000/svg\"") && svg.contains("fill=\"#fff\"/>"), "{svg}");
+    let shown = ["path", "hero", "other", "ball, 8 × 8", "CPU seconds", "relMSE"];
+    assert!(shown.iter().all(|text| svg.contains(&format!(">{text}</text>"))), "{svg}");
+    assert_eq!((svg.matches("http").count(), svg.matches("<svg").count()), (1, 1));
+    let drawn = |text: &str| text.lines().filter(|line| line.starts_with("<polyline")).map(str::to_owned).collect();
+    let (lines, of_page): (Vec<String>, Vec<String>) = (drawn(&svg), drawn(&html));
+    assert!(lines.len() == 3 && of_page[..3] == lines, "{lines:?} {of_page:?}");
     assert!(!folder.0.join("out/against.exr").exists());
 }
 

@@ -16,8 +16,10 @@ use std::path::{Path, PathBuf};
 
 /// Independent runs that a reference is the mean of, from whose spread its own error follows.
 const RUNS: u64 = 8;
-/// Samples per pixel of the runs from which the reference's cost is foreseen.
-const PILOT_SPP: u64 = 16;
+/// Most samples per pixel of the runs from which the reference's cost is foreseen: renders of 32 and more plan their work.
+const PILOT_SPP: u64 = 64;
+/// Share of the time limit after which they are enough: they double, so that all take at most four times as much.
+const PILOT_SHARE: f64 = 0.025;
 /// Its own relMSE is to be this share of the lowest target.
 const SHARE_OF_TARGET: f64 = 0.05;
 /// Seeds of references; those on test are below.
@@ -227,13 +229,21 @@ fn make(session: &Session, work: &Work, (integrator, why): (Integrator, &'static
     let spp = match session.args.reference_spp {
         Some(spp) => spp,
         None => {
-            let (pilot, run) = mean_of_runs(session, work, &settings, PILOT_SPP, FIRST_SEED);
+            let enough = PILOT_SHARE * session.args.time_limit;
+            let mut pilot_spp = 1;
+            let (pilot, run) = loop {
+                let (pilot, run) = mean_of_runs(session, work, &settings, pilot_spp, FIRST_SEED);
+                if pilot_spp >= PILOT_SPP || run.wall_seconds > enough {
+                    break (pilot, run);
+                }
+                pilot_spp *= 2;
+            };
             let variance = pilot.variance.as_ref().ok_or_else(|| usage("a reference without a variance"))?;
             let error = relative_to(&pilot.mean, variance, work, None)?;
             let wanted = error / (SHARE_OF_TARGET * session.lowest_target());
             let affordable = session.args.time_limit / run.wall_seconds.max(f64::MIN_POSITIVE);
             let factor = wanted.min(affordable).clamp(1.0, 65536.0);
-            (PILOT_SPP as f64 * factor).ceil() as u64
+            (pilot_spp as f64 * factor).ceil() as u64
         }
     };
     let (mut reference, run) = mean_of_runs(session, work, &settings, spp, FIRST_SEED + RUNS);
