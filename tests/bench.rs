@@ -149,6 +149,23 @@ fn references_are_kept_and_what_is_not_reached_is_said() {
 }
 
 #[test]
+fn the_reference_is_made_by_what_finds_everything() {
+    let folder = Folder::new();
+    let sky = SCENE.replacen('{', r#"{ "environment": { "radiance": 0.1 },"#, 1);
+    let ball = r#""radius": 0.7 }, "material": "grey""#;
+    let glass = SCENE
+        .replace(r#""materials": {"#, r#""materials": { "glass": { "type": "dielectric", "ior": 1.5 },"#)
+        .replace(ball, &ball.replace("grey", "glass"));
+    for (name, scene, integrator) in [("ball", SCENE, "light"), ("sky", &sky, "path"), ("glass", &glass, "auto")] {
+        fs::write(folder.0.join(name).with_extension("json"), scene).unwrap();
+        let small = ["--to-spp", "1", "--reference-spp", "2", "--json", "-q"];
+        let (_, out, err) = folder.bench(&[&[format!("{name}.json").as_str()], &small[..]].concat());
+        let report: Value = serde_json::from_str(&out).unwrap_or_else(|e| panic!("{name}: {e}: {err}"));
+        assert_eq!(report["scenes"][0]["reference"]["integrator"], integrator, "{name}");
+    }
+}
+
+#[test]
 fn a_file_as_reference_and_a_mask() {
     let folder = Folder::new();
     let mut render = Command::new(env!("CARGO_BIN_EXE_abbe"));

@@ -37,20 +37,9 @@ def abbe():
     return str(ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release" / "abbe")
 
 
-def described(scene):
-    return json.loads(scene.read_text(encoding="utf-8"))
-
-
-def reference(scene):
-    """Where there is something to focus light, camera paths, which `bench` would take, miss too much of a caustic, and their
-    own spread does not tell. Elsewhere what it takes is good."""
-    kinds = {material["type"] for material in described(scene)["materials"].values()}
-    return [] if kinds == {"diffuse"} else ["--reference", "auto"]
-
-
 def thumbnail(scene):
     """Width and height."""
-    film = described(scene)["film"]
+    film = json.loads(scene.read_text(encoding="utf-8"))["film"]
     factor = (WIDTH * HEIGHT / (film["width"] * film["height"])) ** 0.5
     return round(film["width"] * factor), round(film["height"] * factor)
 
@@ -61,7 +50,7 @@ def bench(binary, scene, seconds):
     folder.mkdir(parents=True, exist_ok=True)
     line = [binary, "bench", str(scene), "--resolution", "{}x{}".format(*thumbnail(scene)), "-o", str(folder), "-q"]
     line += ["--from-spp", str(FROM_SPP), "--replicates", str(REPLICATES), "--target", str(TARGET / 4)]
-    line += ["--time-limit", str(seconds / 2), *reference(scene)]
+    line += ["--time-limit", str(seconds / 2)]
     subprocess.run(line, check=True, stdout=subprocess.DEVNULL)
     return json.loads((folder / "bench.json").read_text(encoding="utf-8"))["scenes"][0]
 

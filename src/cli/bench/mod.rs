@@ -37,7 +37,7 @@ pub struct BenchArgs {
     #[arg(long, value_name = "auto|S", default_value = "auto")]
     pub against_scale: String,
     /// What the reference is made with: an integrator, or an EXR file. Default: light where light paths see all that the
-    /// scene has, else path, else auto
+    /// scene has, else path where all is matte, else auto
     #[arg(long, value_name = "INTEGRATOR|FILE")]
     pub reference: Option<String>,
     /// Samples per pixel of each of the reference's 8 runs; by default as many as make its own error a twentieth of the
