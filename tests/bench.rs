@@ -111,6 +111,16 @@ fn two_integrators_and_a_command_on_the_same_work() {
     let html = folder.read("out/bench.html");
     assert_eq!((html.matches("<svg").count(), html.matches("data:image/png;base64,").count()), (2, 7));
     assert!(!html.contains("http://") || html.matches("http").all(|_| html.contains("www.w3.org/2000/svg")));
+    // The plot over time stands alone too: a name space, a size, a white ground, the legend; nothing from elsewhere.
+    let svg = folder.read("out/ball.svg");
+    assert!(svg.starts_with("<svg width=\"560\" height=") && svg.ends_with("</svg>\n"), "{svg}");
+    assert!(svg.contains("xmlns=\"http://www.w3.org/2000/svg\"") && svg.contains("fill=\"#fff\"/>"), "{svg}");
+    let shown = ["path", "hero", "other", "ball, 8 × 8", "CPU seconds", "relMSE"];
+    assert!(shown.iter().all(|text| svg.contains(&format!(">{text}</text>"))), "{svg}");
+    assert_eq!((svg.matches("http").count(), svg.matches("<svg").count()), (1, 1));
+    let drawn = |text: &str| text.lines().filter(|line| line.starts_with("<polyline")).map(str::to_owned).collect();
+    let (lines, of_page): (Vec<String>, Vec<String>) = (drawn(&svg), drawn(&html));
+    assert!(lines.len() == 3 && of_page[..3] == lines, "{lines:?} {of_page:?}");
     assert!(!folder.0.join("out/against.exr").exists());
 }
 
@@ -136,6 +146,23 @@ fn references_are_kept_and_what_is_not_reached_is_said() {
     assert!(!folder.bench(&arguments).2.contains("kept"));
     let (_, out, _) = folder.bench(&["ball.json", "--to-spp", "2", "--reference-spp", "64"]);
     assert!(out.contains("not reached in"), "{out}");
+}
+
+#[test]
+fn the_reference_is_made_by_what_finds_everything() {
+    let folder = Folder::new();
+    let sky = SCENE.replacen('{', r#"{ "environment": { "radiance": 0.1 },"#, 1);
+    let ball = r#""radius": 0.7 }, "material": "grey""#;
+    let glass = SCENE
+        .replace(r#""materials": {"#, r#""materials": { "glass": { "type": "dielectric", "ior": 1.5 },"#)
+        .replace(ball, &ball.replace("grey", "glass"));
+    for (name, scene, integrator) in [("ball", SCENE, "light"), ("sky", &sky, "path"), ("glass", &glass, "auto")] {
+        fs::write(folder.0.join(name).with_extension("json"), scene).unwrap();
+        let small = ["--to-spp", "1", "--reference-spp", "2", "--json", "-q"];
+        let (_, out, err) = folder.bench(&[&[format!("{name}.json").as_str()], &small[..]].concat());
+        let report: Value = serde_json::from_str(&out).unwrap_or_else(|e| panic!("{name}: {e}: {err}"));
+        assert_eq!(report["scenes"][0]["reference"]["integrator"], integrator, "{name}");
+    }
 }
 
 #[test]

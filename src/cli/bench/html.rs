@@ -1,9 +1,8 @@
 //! The benchmark as one HTML file that needs no other.
 
 use super::output::columns;
-use super::plot::{self, Series, escaped};
-use super::summary::Level;
-use super::{SceneReport, Session, VariantReport};
+use super::plot::{self, escaped};
+use super::{SceneReport, Session};
 use crate::Result;
 use crate::cli::heat;
 use crate::develop::{self, Picture, Tonemap};
@@ -16,6 +15,9 @@ th,td{padding:.3rem .7rem;border-bottom:1px solid #ddd;text-align:left}th{font-w
 .row{display:flex;flex-wrap:wrap;gap:1rem}.row>*{flex:1 1 24rem;max-width:36rem}figure{margin:0}\
 .pictures>*{flex:0 1 auto}img{max-width:100%;image-rendering:pixelated;display:block}figcaption{font-size:.85rem;color:#555}\
 .note{color:#555;font-size:.9rem}";
+
+const BY_TIME: [&str; 2] = ["CPU seconds", "relMSE"];
+const BY_SAMPLES: [&str; 2] = ["samples per pixel", "relMSE"];
 
 /// The page.
 pub fn page(session: &Session, reports: &[SceneReport]) -> Result<String> {
@@ -39,17 +41,15 @@ pub fn page(session: &Session, reports: &[SceneReport]) -> Result<String> {
     ))
 }
 
+/// The page's plot of error over time of one scene, as a file of its own; `None` if there is nothing to show.
+pub fn plot_file(session: &Session, report: &SceneReport) -> Option<String> {
+    let title = format!("{}, {} × {}", report.name, report.width, report.height);
+    plot::log_log_file(&title, &plot::errors_over(report, |l| l.cpu_seconds), BY_TIME, &session.targets)
+}
+
 fn scene(session: &Session, report: &SceneReport) -> Result<String> {
-    let series = |x: &dyn Fn(&Level) -> f64| -> Vec<Series> {
-        let points = |v: &VariantReport| {
-            let interval = |l: &Level| [l.relmse - l.standard_error, l.relmse + l.standard_error];
-            v.levels.iter().map(|level| (x(level), level.relmse, interval(level))).collect()
-        };
-        report.variants.iter().map(|v| Series { name: v.variant.name.clone(), points: points(v) }).collect()
-    };
-    let targets = &session.targets;
-    let by_time = plot::log_log(&series(&|level| level.cpu_seconds), ["CPU seconds", "relMSE"], targets);
-    let by_samples = plot::log_log(&series(&|level| level.spp as f64), ["samples per pixel", "relMSE"], targets);
+    let by_time = plot::log_log(&plot::errors_over(report, |l| l.cpu_seconds), BY_TIME, &session.targets);
+    let by_samples = plot::log_log(&plot::errors_over(report, |l| l.spp as f64), BY_SAMPLES, &session.targets);
     Ok(format!(
         "<h2>{}, {} × {}</h2>\n<p class=\"note\">{}. Scene compiled in {:.2} s.</p>\n{}\n\
          <div class=\"row\">\n{by_time}{by_samples}</div>\n<h3>Pictures</h3>\n<div class=\"row pictures\">\n{}</div>\n",

@@ -37,7 +37,7 @@ pub struct BenchArgs {
     #[arg(long, value_name = "auto|S", default_value = "auto")]
     pub against_scale: String,
     /// What the reference is made with: an integrator, or an EXR file. Default: light where light paths see all that the
-    /// scene has, else path, else auto
+    /// scene has, else path where all is matte, else auto
     #[arg(long, value_name = "INTEGRATOR|FILE")]
     pub reference: Option<String>,
     /// Samples per pixel of each of the reference's 8 runs; by default as many as make its own error a twentieth of the
@@ -50,8 +50,8 @@ pub struct BenchArgs {
     /// Independent runs of each budget
     #[arg(long, value_name = "R", default_value_t = 8, value_parser = clap::value_parser!(u64).range(8..=1 << 10))]
     pub replicates: u64,
-    /// Seconds for each scene, shared by what is compared; the reference not counted
-    #[arg(long, value_name = "SECONDS", default_value_t = 120.0)]
+    /// Seconds for each scene, shared by what is compared; the reference may take as many again
+    #[arg(long, value_name = "SECONDS", default_value_t = 40.0)]
     pub time_limit: f64,
     /// Smallest budget, samples per pixel
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
@@ -71,7 +71,7 @@ pub struct BenchArgs {
     /// Threads; all processors by default
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
     pub threads: Option<u16>,
-    /// Folder for bench.csv, bench.json, bench.html and the references
+    /// Folder for bench.csv, bench.json, bench.html, a plot SCENE.svg of each scene and the references
     #[arg(short, long = "output", value_name = "DIR", default_value = "bench")]
     pub output: PathBuf,
     /// Instead: how often the true error of renders to the target error is below what they claim, in 100 runs of each scene

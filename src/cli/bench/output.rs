@@ -8,12 +8,29 @@ use crate::io::output::write_atomically;
 use crate::render::Phase;
 use serde_json::{Value, json};
 
-/// Writes bench.csv, bench.json and bench.html.
+/// Writes bench.csv, bench.json, bench.html and a plot of each scene.
 pub fn write_files(session: &Session, reports: &[SceneReport]) -> Result<()> {
     let folder = &session.args.output;
     write_atomically(&folder.join("bench.csv"), to_csv(reports).as_bytes())?;
     write_atomically(&folder.join("bench.json"), format!("{:#}\n", to_json(session, reports)).as_bytes())?;
-    write_atomically(&folder.join("bench.html"), html::page(session, reports)?.as_bytes())
+    write_atomically(&folder.join("bench.html"), html::page(session, reports)?.as_bytes())?;
+    for (report, name) in reports.iter().zip(plot_names(reports.iter().map(|report| report.name.as_str()))) {
+        if let Some(svg) = html::plot_file(session, report) {
+            write_atomically(&folder.join(name), svg.as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
+/// SCENE.svg, and SCENE-2.svg for a second scene of that name.
+fn plot_names<'a>(scenes: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for scene in scenes {
+        let numbered = (2..).map(|number| format!("{scene}-{number}.svg"));
+        let free = std::iter::once(format!("{scene}.svg")).chain(numbered).find(|name| !names.contains(name));
+        names.extend(free);
+    }
+    names
 }
 
 /// One line a run.
@@ -241,6 +258,7 @@ mod tests {
     fn numbers_and_fields() {
         let numbers = [0.0, 0.01234, 1.2345, 12.345, 123.45, 1.2e-9, 7e9].map(number);
         assert_eq!(numbers, ["0", "0.0123", "1.23", "12.3", "123", "1.20e-9", "7.00e9"]);
+        assert_eq!(plot_names(["a", "b", "a", "a"].into_iter()), ["a.svg", "b.svg", "a-2.svg", "a-3.svg"]);
         assert_eq!((quoted("a b"), quoted("a,\"b\"")), ("a b".into(), "\"a,\"\"b\"\"\"".into()));
     }
 }

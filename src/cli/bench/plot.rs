@@ -1,5 +1,7 @@
 //! Log–log plots as SVG.
 
+use super::SceneReport;
+use super::summary::Level;
 use std::fmt::Write;
 
 /// A line with its points.
@@ -8,6 +10,16 @@ pub struct Series {
     pub name: String,
     /// x, y, and the ends of y's interval.
     pub points: Vec<(f64, f64, [f64; 2])>,
+}
+
+/// The error of each variant of a scene over `x`, with standard errors.
+pub fn errors_over(report: &SceneReport, x: impl Fn(&Level) -> f64) -> Vec<Series> {
+    let point = |l: &Level| (x(l), l.relmse, [l.relmse - l.standard_error, l.relmse + l.standard_error]);
+    let series = |v: &super::VariantReport| Series {
+        name: v.variant.name.clone(),
+        points: v.levels.iter().map(point).collect(),
+    };
+    report.variants.iter().map(series).collect()
 }
 
 /// Colours that people with any kind of colour vision tell apart (after Okabe and Ito).
@@ -74,18 +86,44 @@ fn label(value: f64) -> String {
     if (1e-2..1e5).contains(&value) { format!("{value}") } else { format!("{value:e}") }
 }
 
-/// A plot with horizontal dashed lines at `targets`. Empty if there is nothing to show.
+/// A plot with horizontal dashed lines at `targets`, for a page that says how large it is. Empty if there is nothing to
+/// show.
 pub fn log_log(series: &[Series], labels: [&str; 2], targets: &[f64]) -> String {
+    let Some(drawing) = drawing(series, labels, targets) else { return String::new() };
+    format!("<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" {}>\n{drawing}</svg>\n", attributes(labels))
+}
+
+/// The same as a file of its own: with a size, on white, under a title. `None` if there is nothing to show.
+pub fn log_log_file(title: &str, series: &[Series], labels: [&str; 2], targets: &[f64]) -> Option<String> {
+    const ABOVE: f64 = 24.0;
+    let (drawing, height) = (drawing(series, labels, targets)?, HEIGHT + ABOVE);
+    let attributes = attributes(labels);
+    Some(format!(
+        "<svg width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 {top} {WIDTH} {height}\" {attributes}>\n\
+         <rect y=\"{top}\" width=\"{WIDTH}\" height=\"{height}\" fill=\"#fff\"/>\n\
+         <text x=\"{middle}\" y=\"-5\" text-anchor=\"middle\" font-size=\"14\" font-weight=\"600\">{title}</text>\n\
+         {drawing}</svg>\n",
+        top = -ABOVE,
+        middle = (WIDTH + MARGINS[0] - MARGINS[2]) / 2.0,
+        title = escaped(title),
+    ))
+}
+
+fn attributes(labels: [&str; 2]) -> String {
+    format!(
+        "role=\"img\" aria-label=\"{} against {}\" xmlns=\"http://www.w3.org/2000/svg\" \
+         font-family=\"system-ui, sans-serif\" font-size=\"12\"",
+        labels[1], labels[0]
+    )
+}
+
+/// What is inside of either.
+fn drawing(series: &[Series], labels: [&str; 2], targets: &[f64]) -> Option<String> {
     let points = || series.iter().flat_map(|s| &s.points);
     let [left, top, right, bottom] = MARGINS;
-    let x_axis = Axis::new(points().map(|p| p.0), left, WIDTH - right);
-    let y_axis = Axis::new(points().map(|p| p.1).chain(targets.iter().copied()), HEIGHT - bottom, top);
-    let (Some(x), Some(y)) = (x_axis, y_axis) else { return String::new() };
-    let mut svg = format!(
-        "<svg viewBox=\"0 0 {WIDTH} {HEIGHT}\" role=\"img\" aria-label=\"{} against {}\" \
-         xmlns=\"http://www.w3.org/2000/svg\" font-family=\"system-ui, sans-serif\" font-size=\"12\">\n",
-        labels[1], labels[0]
-    );
+    let x = Axis::new(points().map(|p| p.0), left, WIDTH - right)?;
+    let y = Axis::new(points().map(|p| p.1).chain(targets.iter().copied()), HEIGHT - bottom, top)?;
+    let mut svg = String::new();
     grid(&mut svg, &x, &y, labels);
     for &target in targets {
         // Writing to a String cannot fail; so below.
@@ -100,7 +138,7 @@ pub fn log_log(series: &[Series], labels: [&str; 2], targets: &[f64]) -> String 
         draw(&mut svg, one, color(i), &x, &y);
     }
     legend(&mut svg, series);
-    svg + "</svg>\n"
+    Some(svg)
 }
 
 fn grid(svg: &mut String, x: &Axis, y: &Axis, labels: [&str; 2]) {
@@ -186,8 +224,13 @@ mod tests {
         let numbered: Vec<f64> = axis.ticks().into_iter().filter(|t| t.1).map(|t| t.0).collect();
         assert_eq!(numbered, [0.01, 0.1, 1.0, 10.0, 100.0]);
         let series = Series { name: "a<b".into(), points: vec![(1.0, 0.1, [0.05, 0.2]), (10.0, 0.01, [0.0, 0.02])] };
-        let svg = log_log(&[series], ["x", "y"], &[0.01]);
+        let series = [series];
+        let svg = log_log(&series, ["x", "y"], &[0.01]);
         assert!(svg.contains("a&lt;b") && svg.matches("<circle").count() == 2 && !svg.contains("NaN"), "{svg}");
         assert_eq!(log_log(&[], ["x", "y"], &[0.01]), "");
+        // A file shows the same, and its title.
+        let file = log_log_file("c&d", &series, ["x", "y"], &[0.01]).unwrap();
+        assert!(file.contains("c&amp;d") && file.contains(svg.split_once('\n').unwrap().1), "{file}");
+        assert_eq!(log_log_file("none", &[], ["x", "y"], &[0.01]), None);
     }
 }

@@ -67,7 +67,8 @@ impl Work {
         !self.has_specular() && !infinite
     }
 
-    fn has_specular(&self) -> bool {
+    /// Whether there is anything but matte surfaces, and so perhaps caustics.
+    pub fn has_specular(&self) -> bool {
         let materials = &self.description.materials;
         let of_objects = self.description.objects.iter().filter_map(|object| object.material);
         of_objects.into_iter().any(|index| !matches!(materials[index].1.kind, MaterialKind::Diffuse { .. }))
