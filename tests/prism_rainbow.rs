@@ -191,7 +191,7 @@ fn scene(section: &Section, lamp: &Lamp) -> Value {
                     "fov_degrees": 2.0 * half.to_degrees() },
         "film": { "width": SIZE[0], "height": SIZE[1] },
         // In, out, and the screen: no reflection inside the prism.
-        "render": { "samples_per_pixel": 1500, "max_depth": 3, "seed": 0 },
+        "render": { "samples_per_pixel": 400, "max_depth": 3, "seed": 0 },
         "materials": { "glass": { "type": "dielectric", "ior": { "glass": GLASS } },
                        "screen": { "type": "diffuse", "reflectance": REFLECTANCE } },
         "objects": [

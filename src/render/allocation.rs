@@ -41,7 +41,7 @@ impl Allocation {
         // With n samples at cost C in all and variance V of their mean: V n / (C / n) is V n² / C.
         let better = |ratio: f64, variance: f64, rays: u64, [low, high]: [f64; 2]| {
             let squared = ratio * ratio * variance * spent.camera as f64 / (variances.camera * rays as f64);
-            if squared.is_finite() { squared.sqrt().clamp(low, high) } else { ratio }
+            if squared.is_nan() { ratio } else { squared.sqrt().clamp(low, high) }
         };
         Self {
             light: better(self.light, variances.light, spent.light, LIGHT_BOUNDS),

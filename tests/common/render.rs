@@ -23,12 +23,18 @@ pub fn render_json(scene: &Value) -> (Film, Statistics) {
 
 /// The same for a compiled scene.
 pub fn render_compiled(compiled: &Compiled) -> (Film, Statistics) {
+    let (film, statistics) = render_counting_underflows(compiled);
+    assert_eq!(statistics.counters.medium_underflows, 0, "paths left media that they had not entered");
+    (film, statistics)
+}
+
+/// The same for a scene with edges of volumes in each other: a path that comes within rounding of one may lose count.
+pub fn render_counting_underflows(compiled: &Compiled) -> (Film, Statistics) {
     let features = SceneFeatures { dispersion: false, interiors: false };
     let Rendering { film, statistics, .. } =
         abbe::render::render(&compiled.scene, &compiled.render, &compiled.film, features, &mut |_| true);
     assert!(statistics.complete);
     assert_eq!(film.non_finite_samples, 0, "samples were not finite");
-    assert_eq!(statistics.counters.medium_underflows, 0, "paths left media that they had not entered");
     (film, statistics)
 }
 
