@@ -96,3 +96,63 @@ impl Walk<'_> {
         true
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::{path, techniques::Techniques, workspace::Workspace};
+    use crate::sampling::{Sobol, mix};
+    use crate::scene::Compiled;
+    use std::path::Path;
+
+    /// A ball of glass with a core of another in a furnace.
+    fn furnace(core: &str) -> Compiled {
+        let text = format!(
+            r#"{{
+            "camera": {{ "type": "perspective", "from": [0, 0, 5], "to": [0, 0, 0], "fov_degrees": 25 }},
+            "film": {{ "width": 16, "height": 16 }},
+            "materials": {{
+                "shell": {{ "type": "dielectric", "ior": {{ "glass": "SF11" }} }},
+                "core": {{ "type": "dielectric", "ior": {core}, "priority": 1 }}
+            }},
+            "objects": [
+                {{ "shape": {{ "type": "sphere", "center": [0, 0, 0], "radius": 1 }}, "material": "shell" }},
+                {{ "shape": {{ "type": "sphere", "center": [0.1, 0.2, 0], "radius": 0.5 }}, "material": "core" }}
+            ],
+            "environment": {{ "radiance": 1 }}
+        }}"#
+        );
+        let parsed = crate::scene::description::parse_str(&text, Path::new("furnace.json")).unwrap();
+        crate::scene::compile(&parsed.description).unwrap()
+    }
+
+    /// Parts make a whole: whatever a path forks for, its branches together bring what one path would, here 1 in every lane
+    /// that stands for itself, and the mean of 1 where one stands for others.
+    #[test]
+    fn branches_bring_what_one_path_does() {
+        for core in [r#"{ "glass": "N-BK7" }"#, "2.4"] {
+            let compiled = furnace(core);
+            let scene = &compiled.scene;
+            let mut workspace = Workspace::new(scene);
+            let mut rays = [0; 2];
+            for (trial, least_share) in [NEVER, 1.0 / 256.0].into_iter().enumerate() {
+                for i in 0..4000 {
+                    let sobol = Sobol::new(mix(i));
+                    let u = sobol.group(0, 0);
+                    let ray = scene.camera.ray([16.0 * u[0], 16.0 * u[1]], [0.5; 2]);
+                    workspace.spectra.begin(scene.wavelengths.sample(u[2]));
+                    workspace.interiors.reset(&[]);
+                    workspace.counters = Default::default();
+                    let branching = Branching { parting: Parting::Ways(8), least_share };
+                    let mut walk = Walk::start(scene, &mut workspace, ray, (0, branching), (sobol, 0));
+                    let radiance = path::radiance::<true, true>(&mut walk, &Techniques::Path, 4096);
+                    rays[trial] += workspace.counters.rays;
+                    let radiance = radiance * scene.radiance_scale as f32;
+                    assert!((radiance.mean() - 1.0).abs() < 1e-4, "{core} {least_share} {i}: {radiance:?}");
+                    assert_eq!(workspace.branches.pending, 0);
+                }
+            }
+            assert!(rays[1] > 2 * rays[0], "paths fork: {rays:?} rays");
+        }
+    }
+}
