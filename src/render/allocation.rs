@@ -33,7 +33,7 @@ pub struct Spent {
 
 impl Allocation {
     /// Before anything is known.
-    pub const START: Self = Self { light: 0.25, merged: 0.25 };
+    pub const START: Self = Self { light: 0.5, merged: 0.5 };
 
     /// The best split, after what has been measured with this one from a film and the rays that it took.
     pub fn next(self, film: &Film, spent: &Spent) -> Self {

@@ -6,7 +6,7 @@ use super::allocation::Allocation;
 use std::ops::Range;
 
 /// Camera samples a pixel of the first segment; each of the following is as long as all before it.
-const FIRST_SEGMENT: u64 = 8;
+const FIRST_SEGMENT: u64 = 4;
 
 /// A stretch of a render with one split of the work.
 #[derive(Debug, Clone, Default)]
@@ -79,8 +79,8 @@ mod tests {
 
     #[test]
     fn segments() {
-        let ends: Vec<u64> = [0, 7, 8, 31, 32, 99].into_iter().map(segment_end).collect();
-        assert_eq!(ends, [8, 8, 16, 32, 64, 128]);
+        let ends: Vec<u64> = [0, 3, 4, 7, 8, 31, 32, 99].into_iter().map(segment_end).collect();
+        assert_eq!(ends, [4, 4, 8, 8, 16, 32, 64, 128]);
     }
 
     /// Light paths are in proportion to camera paths up to half a path, and passes of merging are never late.
