@@ -224,7 +224,7 @@ fn thin_lens_and_filter() {
     scene["objects"][2]["transform"] =
         json!([{ "rotate_degrees": 80, "axis": [1, 0, 0] }, { "translate": [0.0, 0.3, 0.0] }]);
     scene["materials"]["glass"]["ior"] = json!({ "glass": "N-BK7" });
-    agree("thin lens and filter", &scene, &[("path", 768), ("light", 1408), ("merge", 40), ("hero", 1792)]);
+    agree("thin lens and filter", &scene, &[("path", 768), ("light", 1408), ("merge", 64), ("hero", 1792)]);
 }
 
 /// Normals that are not those of the surface: light paths need a correction that camera paths do not. The light is a mesh.
@@ -268,7 +268,7 @@ fn nested_media() {
         json!({ "shape": { "type": "sphere", "center": [-0.01, 0.44, 0.01], "radius": 0.02 }, "material": "air" }),
     );
     objects.push(json!({ "shape": box_shape([0.02, 0.4, -0.03], [0.1, 0.46, 0.03]), "material": "amber" }));
-    agree("nested media", &scene, &[("path", 1536), ("light", 2048), ("merge", 80)]);
+    agree("nested media", &scene, &[("path", 1536), ("light", 2048), ("merge", 192)]);
 }
 
 /// A luminous ball inside a ball of dispersive glass: all light is refracted before it gets anywhere.
