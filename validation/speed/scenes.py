@@ -2,7 +2,7 @@
 """What every scene costs: `python3 validation/speed/scenes.py [--only SCENE]... [--seconds S]`.
 
 Runs `abbe bench` on each of scenes/*.json at the size of a thumbnail, writes scenes.md and draws the plots of four scenes as
-scenes/pictures/bench-*.svg. Takes about a quarter of an hour on two cores. `abbe bench scenes/*.json` measures the same at
+scenes/pictures/bench-*.svg. Takes about seven minutes on two cores. `abbe bench scenes/*.json` measures the same at
 the full size, where the time buys fewer samples.
 """
 
@@ -21,7 +21,7 @@ PICTURES = ROOT / "scenes" / "pictures"
 # All thumbnails have as many pixels as one of this size, in the shape of their scene.
 WIDTH, HEIGHT = 160, 90
 # Of wall time for all scenes together: references and benchmarks get half each.
-SECONDS = 960
+SECONDS = 420
 REPLICATES = 8
 FROM_SPP = 8
 COMMON_SPP = 64
