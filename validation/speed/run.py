@@ -41,7 +41,7 @@ CASES = [
     Case("ball", (160, 105), "caustic on the table", [(0.42, 0.52), (0.62, 0.5), (0.72, 0.58), (0.62, 0.68), (0.42, 0.68)],
          ("auto",), 20, {"light": 20, "hero": 200}),
     Case("ball", (160, 105), "whole picture", None, ("auto",), 20, {"hero": 100}),
-    Case("gem", (128, 96), "whole picture", None, ("auto", "hero"), 150),
+    Case("gem", (128, 96), "whole picture", None, ("auto",), 120, {"hero": 20}),
     Case("prism-through-prism", (180, 90), "spectrum seen through the second prism", [(0.8, 0.4), (0.96, 0.4), (0.96, 0.51), (0.8, 0.51)],
          ("auto",), 90, {"hero": 600, "light": 60}),
 ]
