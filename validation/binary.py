@@ -14,6 +14,8 @@ def target_folder():
 
 
 def abbe_binary():
-    """The command, brought up to date first."""
+    """The command, brought up to date first; or the program that ABBE names."""
+    if "ABBE" in os.environ:
+        return Path(os.environ["ABBE"])
     subprocess.run(["cargo", "build", "--profile", PROFILE, "--quiet", "--bin", "abbe"], cwd=ROOT, check=True)
     return target_folder() / ("debug" if PROFILE == "dev" else PROFILE) / ("abbe.exe" if os.name == "nt" else "abbe")

@@ -26,7 +26,7 @@ pub use profile::{Phase, Profile, TimedRays};
 pub use workspace::Counters;
 
 use crate::color::Observer;
-use crate::film::{Film, Sensor};
+use crate::film::{Film, LIGHT_REPLICATES, Sensor};
 use crate::scene::{FilmSettings, RenderSettings, Scene, SceneFeatures};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM};
 use adaptive::Adaptive;
@@ -118,6 +118,8 @@ struct RenderState {
     segment: Segment,
     adaptive: Option<Adaptive>,
     merging: MergeState,
+    /// Passes of merging at the last mark on the film.
+    marked_passes: u64,
     spent: Spent,
     /// Samples of a pass, and what one of them takes in seconds.
     at_once: u64,
@@ -194,8 +196,9 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 break;
             }
             if ending == Ending::Done && state.done.samples < self.settings.samples_per_pixel {
+                state.spent.close_segment(state.segment.taken(state.done.samples), allocation);
                 allocation = allocation.next(&film, &state.spent);
-                film.mark_merged();
+                state.mark_merged(&mut film);
                 if state.adaptive.is_some() {
                     film.close_stage();
                 }
@@ -209,7 +212,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             samples: state.done.samples,
             camera_paths: film.camera_paths(),
             light_paths: film.light_paths(),
-            photon_paths: state.done.merge_passes * self.plan.merging.as_ref().map_or(0, |m| m.photon_paths),
+            photon_paths: state.done.merge_passes() * self.plan.merging.as_ref().map_or(0, |m| m.photon_paths),
             decisions: self.plan.decisions(pilot_rays, allocation),
             counters: state.counters,
             error_bound: state.error_bound,
@@ -315,7 +318,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         let count = self.light_pass(film, done.light_paths..next.light_paths, state.segment.light_weight);
         state.spent.light += state.book(Phase::Light, started, count);
         if let Some(merging) = &self.plan.merging {
-            for pass in done.merge_passes..next.merge_passes {
+            for pass in done.merge_passes()..next.merge_passes() {
                 let started = Instant::now();
                 let count = self.merge_pass(merging, film, pass, &mut state.merging);
                 state.spent.merged += state.book(Phase::Merging, started, count);
@@ -326,6 +329,16 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
 }
 
 impl RenderState {
+    /// Marks what has been merged where it is twice as much as it was at the last mark, and more than nothing in each
+    /// replicate.
+    fn mark_merged(&mut self, film: &mut Film) {
+        let passes = self.done.merge_passes();
+        if passes >= (2 * self.marked_passes).max(LIGHT_REPLICATES as u64) {
+            film.mark_merged();
+            self.marked_passes = passes;
+        }
+    }
+
     /// Books the time since `started` and the rays of some work, and tells the rays.
     fn book(&mut self, phase: Phase, started: Instant, count: Counters) -> u64 {
         self.counters.add(count);

@@ -19,20 +19,27 @@ pub struct Segment {
     light_paths_per_sample: f64,
     /// What each light path counts: all of a segment count as many as its camera paths.
     pub light_weight: f64,
-    /// The first pass of merging.
-    first_merge_pass: u64,
+    /// Merging that is done before.
+    merged_before: f64,
     merge_passes_per_sample: f64,
 }
 
 /// Work done so far, or to be done.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Work {
     /// Samples of each pixel, on average.
     pub samples: u64,
     /// Light paths.
     pub light_paths: u64,
-    /// Passes of merging.
-    pub merge_passes: u64,
+    /// Passes of merging, and the share of the next that is due.
+    pub merging: f64,
+}
+
+impl Work {
+    /// Passes of merging, of which none is late.
+    pub fn merge_passes(&self) -> u64 {
+        self.merging.ceil() as u64
+    }
 }
 
 impl Segment {
@@ -43,7 +50,7 @@ impl Segment {
             first_light_path: done.light_paths,
             light_paths_per_sample: pixels as f64 * allocation.light,
             light_weight: 1.0 / allocation.light,
-            first_merge_pass: done.merge_passes,
+            merged_before: done.merging,
             merge_passes_per_sample: allocation.merged,
         }
     }
@@ -59,7 +66,7 @@ impl Segment {
         Work {
             samples,
             light_paths: self.first_light_path + (taken * self.light_paths_per_sample).round() as u64,
-            merge_passes: self.first_merge_pass + (taken * self.merge_passes_per_sample).ceil() as u64,
+            merging: self.merged_before + taken * self.merge_passes_per_sample,
         }
     }
 }
@@ -83,13 +90,16 @@ mod tests {
         assert_eq!(ends, [4, 4, 8, 8, 16, 32, 64, 128]);
     }
 
-    /// Light paths are in proportion to camera paths up to half a path, and passes of merging are never late.
+    /// Light paths are in proportion to camera paths up to half a path, and passes of merging are never late; what is due of
+    /// one at the end of a segment is not forgotten in the next.
     #[test]
     fn work_follows_samples() {
-        let done = Work { samples: 8, light_paths: 100, merge_passes: 2 };
+        let done = Work { samples: 8, light_paths: 100, merging: 1.625 };
         let segment = Segment::new(done, 16, 10, Allocation { light: 0.33, merged: 0.25 });
         assert_eq!(segment.work(8), done);
-        assert_eq!(segment.work(9), Work { samples: 9, light_paths: 103, merge_passes: 3 });
-        assert_eq!(segment.work(16), Work { samples: 16, light_paths: 126, merge_passes: 4 });
+        assert_eq!(segment.work(9), Work { samples: 9, light_paths: 103, merging: 1.875 });
+        assert_eq!(segment.work(16), Work { samples: 16, light_paths: 126, merging: 3.625 });
+        let passes = [8, 9, 10, 13, 14, 16].map(|samples| segment.work(samples).merge_passes());
+        assert_eq!(passes, [2, 2, 3, 3, 4, 4]);
     }
 }

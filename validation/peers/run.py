@@ -23,6 +23,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from binary import abbe_binary  # noqa: E402
+
 ROOT = HERE.parent.parent
 OUTPUT = HERE / "output"
 ENVIRONMENT = HERE / ".venv"
@@ -76,14 +79,6 @@ def ensure_environment():
     subprocess.run([sys.executable, "-m", "venv", "--clear", str(ENVIRONMENT)], check=True)
     subprocess.run([str(PYTHON), "-m", "pip", "install", "--quiet", "-r", str(wanted)], check=True)
     shutil.copy(wanted, stamp)
-
-
-def abbe():
-    """The release build, or the program that ABBE names."""
-    if "ABBE" in os.environ:
-        return os.environ["ABBE"]
-    subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=ROOT, check=True)
-    return str(ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release" / "abbe")
 
 
 class Boxed:
@@ -289,7 +284,7 @@ def main():
     if not (wanted.scenes or wanted.all or wanted.check):
         parser.error("expected --all, --check or scenes")
     ensure_environment()
-    binary = abbe()
+    binary = str(abbe_binary())
     if wanted.all or wanted.check:
         cases = [case for case in CASES if not wanted.only or case.name in wanted.only]
         compare_all(binary, cases, wanted.all)

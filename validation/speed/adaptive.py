@@ -6,19 +6,12 @@ turns. Writes adaptive.md, in about four minutes on two cores.
 """
 
 import argparse
-import json
 import math
-import os
-import subprocess
-import time
 from dataclasses import dataclass
-from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
-OUTPUT = HERE / "output" / "adaptive"
+from study import HERE, OUTPUT, REPLICATES, SCENES, Report, abbe, bench, reached, seconds_told, size_told
+
 TARGET, LOWER = 0.01, 0.001
-REPLICATES = 8
 FROM_SPP, TO_SPP = 8, 1 << 20
 
 
@@ -39,41 +32,12 @@ CASES = [
 ]
 
 
-def abbe():
-    """The release build, or the program that ABBE names."""
-    if "ABBE" in os.environ:
-        return os.environ["ABBE"]
-    subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=ROOT, check=True)
-    return str(ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release" / "abbe")
-
-
-def bench(binary, case, seconds):
+def measure(binary, case, seconds):
     """The report of `abbe bench`."""
-    folder = OUTPUT / case.scene
-    folder.mkdir(parents=True, exist_ok=True)
-    line = [binary, "bench", str(ROOT / "scenes" / f"{case.scene}.json"), "--resolution", "{}x{}".format(*case.size)]
-    line += ["--vary", "adaptive=on,off", "--reference", case.reference, "--replicates", str(REPLICATES), "-q"]
-    line += ["--from-spp", str(FROM_SPP), "--to-spp", str(TO_SPP), "--time-limit", str(seconds / 2)]
-    line += ["--target", str(LOWER), "-o", str(folder)]
-    subprocess.run(line, check=True, stdout=subprocess.DEVNULL)
-    return json.loads((folder / "bench.json").read_text(encoding="utf-8"))["scenes"][0]
-
-
-def reached(variant, target):
-    """What is known of the time to a target."""
-    [found] = [r for r in variant["time_to_target"] if r["relmse"] == target]
-    return found
-
-
-def seconds_told(variant):
-    found = reached(variant, TARGET)
-    if found["cpu_seconds"] is None:
-        last = variant["budgets"][-1]
-        return f"not reached in {found['not_reached_in']:.3g} ({last['samples_per_pixel']} spp): relMSE {last['relmse']:.2g}"
-    if found.get("by_the_smallest_budget"):
-        return f"< {found['cpu_seconds']:.3g}"
-    high = f"{found['high_95']:.3g}" if found["high_95"] is not None else "?"
-    return f"{found['cpu_seconds']:.3g} ({found['low_95']:.3g}–{high})"
+    arguments = ["--vary", "adaptive=on,off", "--reference", case.reference, "--target", LOWER]
+    arguments += ["--from-spp", FROM_SPP, "--to-spp", TO_SPP]
+    folder = OUTPUT / "adaptive" / case.scene
+    return bench(binary, SCENES / f"{case.scene}.json", case.size, folder, *arguments, seconds=seconds)
 
 
 def ratio_told(on, off, target):
@@ -111,8 +75,8 @@ def row(case, report):
     on, off = variants["on"], variants["off"]
     reference = report["reference"]
     return [
-        case.scene, "{}×{}".format(*case.size), f"{reference['integrator']}, relMSE {reference['relmse']:.1e}",
-        seconds_told(on), seconds_told(off), ratio_told(on, off, TARGET), ratio_told(on, off, LOWER), equal_budget(on, off),
+        case.scene, size_told(case.size), f"{reference['integrator']}, relMSE {reference['relmse']:.1e}",
+        seconds_told(on, TARGET), seconds_told(off, TARGET), ratio_told(on, off, TARGET), ratio_told(on, off, LOWER), equal_budget(on, off),
     ]  # fmt: skip
 
 
@@ -133,20 +97,12 @@ def main():
     parser.add_argument("--only", metavar="SCENE", action="append", choices=[case.scene for case in CASES])
     parser.add_argument("--seconds", type=float, help="for each case, instead of its own")
     args = parser.parse_args()
-    binary, started = abbe(), time.monotonic()
-    line = lambda cells: "| " + " | ".join(cells) + " |\n"
-    table = ""
+    binary, report = abbe(), Report("adaptive.py", "Adaptive sampling", HEADS)
     for case in CASES:
         if not args.only or case.scene in args.only:
-            began = time.monotonic()
-            text = line(row(case, bench(binary, case, args.seconds or case.seconds)))
-            print(f"{time.monotonic() - began:.0f} s: {text}", end="", flush=True)
-            table += text
+            report.add(row(case, measure(binary, case, args.seconds or case.seconds)))
     if not args.only and not args.seconds:
-        version = subprocess.run([binary, "--version"], check=True, capture_output=True, text=True).stdout.strip()
-        text = f"# Adaptive sampling\n\nBy `python3 validation/speed/adaptive.py` in {(time.monotonic() - started) / 60:.0f} min, {version}, "
-        text += f"{os.cpu_count()} processors.\n\n" + line(HEADS) + line(["---"] * len(HEADS)) + table + NOTES
-        (HERE / "adaptive.md").write_text(text, encoding="utf-8")
+        report.write(binary, HERE / "adaptive.md", NOTES)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 
 Runs `abbe bench` on the scenes below, over a mask where the caustic is and over the whole picture, for `auto`, the plain light
 tracer `light` and the baseline `hero`, and writes report.md. Where a baseline takes long or cannot get there, one render of
-up to 600 CPU seconds says how far it comes; --quick leaves those out. Takes a quarter of an hour on two cores.
+up to 600 CPU seconds says how far it comes; --quick leaves those out. Takes about twenty minutes on two cores.
 """
 
 import argparse
@@ -13,11 +13,9 @@ import struct
 import subprocess
 import zlib
 from dataclasses import dataclass, field
-from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
-OUTPUT = HERE / "output"
+from study import HERE, OUTPUT, SCENES, Report, abbe, bench, reached, seconds_told, size_told
+
 TARGET = 0.1
 
 
@@ -40,19 +38,11 @@ CASES = [
     Case("prism", (256, 160), "whole picture", None, ("auto",), 20, {"light": 60}),
     Case("ball", (160, 105), "caustic on the table", [(0.42, 0.52), (0.62, 0.5), (0.72, 0.58), (0.62, 0.68), (0.42, 0.68)],
          ("auto",), 20, {"light": 20, "hero": 200}),
-    Case("ball", (160, 105), "whole picture", None, ("auto",), 20, {"hero": 100}),
-    Case("gem", (128, 96), "whole picture", None, ("auto",), 120, {"hero": 20}),
+    Case("ball", (160, 105), "whole picture", None, ("auto",), 40, {"hero": 100}),
+    Case("gem", (128, 96), "whole picture", None, ("auto", "hero"), 260),
     Case("prism-through-prism", (180, 90), "spectrum seen through the second prism", [(0.8, 0.4), (0.96, 0.4), (0.96, 0.51), (0.8, 0.51)],
          ("auto",), 90, {"hero": 600, "light": 60}),
 ]
-
-
-def abbe():
-    """The release build, or the program that ABBE names."""
-    if "ABBE" in os.environ:
-        return os.environ["ABBE"]
-    subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=ROOT, check=True)
-    return str(ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release" / "abbe")
 
 
 def inside(polygon, x, y):
@@ -80,27 +70,24 @@ def write_mask(path, size, polygon):
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + content)
 
 
-def bench(binary, case):
-    """The summary of one benchmark, and the arguments that tell its picture."""
+def measure(binary, case):
+    """The report of one benchmark, where its files are, and the arguments that tell the region."""
     folder = OUTPUT / f"{case.scene}-{case.region.replace(' ', '-')}"
-    folder.mkdir(parents=True, exist_ok=True)
-    size = "{}x{}".format(*case.size)
     mask = []
     if case.polygon:
+        folder.mkdir(parents=True, exist_ok=True)
         write_mask(folder / "mask.png", case.size, case.polygon)
         mask = ["--mask", str(folder / "mask.png")]
-    line = [binary, "bench", str(ROOT / "scenes" / f"{case.scene}.json"), "--resolution", size, *mask, "-o", str(folder)]
-    line += ["--vary", "integrator=" + ",".join(case.variants), "--target", str(TARGET), "--reference", "auto"]
-    line += ["--time-limit", str(case.seconds), "--json"]
-    told = json.loads(subprocess.run(line, check=True, stdout=subprocess.PIPE, text=True).stdout)
-    return told["scenes"][0], folder, size, mask
+    arguments = ["--vary", "integrator=" + ",".join(case.variants), "--target", TARGET, "--reference", "auto", *mask]
+    scene = SCENES / f"{case.scene}.json"
+    return bench(binary, scene, case.size, folder, *arguments, seconds=2 * case.seconds), folder, mask
 
 
-def long_render(binary, case, integrator, budget, folder, size, mask):
+def long_render(binary, case, integrator, budget, folder, mask):
     """CPU seconds and relMSE of one long render."""
     picture = folder / f"{integrator}.exr"
-    scene = str(ROOT / "scenes" / f"{case.scene}.json")
-    line = [binary, "render", scene, "-q", "--resolution", size, "--integrator", integrator, "--adaptive", "off"]
+    scene = str(SCENES / f"{case.scene}.json")
+    line = [binary, "render", scene, "-q", "--resolution", size_told(case.size, "x"), "--integrator", integrator, "--adaptive", "off"]
     line += ["--time", str(budget / os.cpu_count()), "-o", str(picture), "--json"]
     told = json.loads(subprocess.run(line, check=True, stdout=subprocess.PIPE, text=True).stdout)
     references = (folder / "references").glob(f"{case.scene}-*.exr")
@@ -111,52 +98,55 @@ def long_render(binary, case, integrator, budget, folder, size, mask):
     return told["cpu_seconds"], compared["relmse"]
 
 
-def reached(variant):
-    """CPU seconds to the target, its interval in words, and whether it was reached."""
-    [found] = [r for r in variant["time_to_target"] if r["relmse"] == TARGET]
-    if found["cpu_seconds"] is None:
-        return found["not_reached_in"], f"not reached in {found['not_reached_in']:.1f}", False
-    if found.get("by_the_smallest_budget"):
-        return found["cpu_seconds"], f"< {found['cpu_seconds']:.3g}", True
-    high = f"{found['high_95']:.3g}" if found["high_95"] is not None else "?"
-    return found["cpu_seconds"], f"{found['cpu_seconds']:.3g} ({found['low_95']:.3g}–{high})", True
+def cells(case, integrator, seconds, ratio, efficiency):
+    return [case.scene, case.region, size_told(case.size), integrator, seconds, ratio, efficiency]
+
+
+def ratio_told(variant, best):
+    """How many times as long a variant takes as the best; at least so many where it does not get there."""
+    found = reached(variant, TARGET)
+    there = found["cpu_seconds"] is not None
+    return f"{'' if there else '> '}{(found['cpu_seconds'] if there else found['not_reached_in']) / best:.3g} ×"
 
 
 def rows(binary, case, quick):
     """Lines of the table."""
-    told, folder, size, mask = bench(binary, case)
-    best, _, _ = reached(told["variants"][0])
+    told, folder, mask = measure(binary, case)
+    first, *others = told["variants"]
+    best = reached(first, TARGET)["cpu_seconds"]
     for variant in told["variants"]:
-        seconds, text, there = reached(variant)
-        ratio = "" if variant is told["variants"][0] else f"{'' if there else '> '}{seconds / best:.3g} ×"
+        ratio = ratio_told(variant, best) if best and variant in others else ""
         efficiency = f"{variant['efficiency']:.3g}" if variant["efficiency"] else "–"
-        yield [case.scene, case.region, size.replace("x", "×"), variant["name"], text, ratio, efficiency]
+        yield cells(case, variant["name"], seconds_told(variant, TARGET), ratio, efficiency)
     for integrator, budget in () if quick else case.long.items():
-        seconds, error = long_render(binary, case, integrator, budget, folder, size, mask)
+        seconds, error = long_render(binary, case, integrator, budget, folder, mask)
         text = f"relMSE {error:.3g} after {seconds:.0f}" if error < TARGET else f"not reached in {seconds:.0f}: relMSE {error:.3g}"
         # Light paths alone have the slope -1 wherever they can see all that counts, which is told by slopes.py.
         sees_all = integrator == "light" and "table" in case.region
-        ratio = "?" if error < TARGET else f"> {seconds / best:.3g} ×"
-        ratio = f"{seconds * error / TARGET / best:.3g} ×, by slope −1" if sees_all else ratio
-        yield [case.scene, case.region, size.replace("x", "×"), integrator, text, ratio, f"{1 / (seconds * error):.3g}"]
+        ratio = "?" if error < TARGET or not best else f"> {seconds / best:.3g} ×"
+        if sees_all and best:
+            ratio = f"{seconds * error / TARGET / best:.3g} ×, by slope −1"
+        yield cells(case, integrator, text, ratio, f"{1 / (seconds * error):.3g}")
+
+
+HEADS = ["scene", "where", "pixels", "integrator", f"CPU s to relMSE {TARGET}", "auto is faster by", "1/(relMSE·CPU s)"]
+NOTES = """
+* Ranges are of 95 %, from eight runs of each budget. "Not reached": one render with so many CPU seconds.
+"""
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", metavar="SCENE")
-    parser.add_argument("--quick", action="store_true", help="without the renders of 600 CPU seconds")
+    parser.add_argument("--only", metavar="SCENE", choices=sorted({case.scene for case in CASES}))
+    parser.add_argument("--quick", action="store_true", help="without the long renders")
     args = parser.parse_args()
-    binary = abbe()
-    head = ["scene", "where", "pixels", "integrator", f"CPU s to relMSE {TARGET}", "auto is faster by", "1/(relMSE·CPU s)"]
-    lines = ["# Time to a caustic", "", "By `python3 validation/speed/run.py`; intervals are of 95 %.", ""]
-    lines += ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    binary, report = abbe(), Report("run.py", "Time to a caustic", HEADS)
     for case in CASES:
         if args.only in (None, case.scene):
             for row in rows(binary, case, args.quick):
-                lines.append("| " + " | ".join(row) + " |")
-                print(lines[-1], flush=True)
+                report.add(row)
     if args.only is None and not args.quick:
-        (HERE / "report.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        report.write(binary, HERE / "report.md", NOTES)
 
 
 if __name__ == "__main__":

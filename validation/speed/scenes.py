@@ -8,33 +8,20 @@ the full size, where the time buys fewer samples.
 
 import argparse
 import json
-import os
 import shutil
-import subprocess
 import time
-from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
-OUTPUT = HERE / "output" / "scenes"
-PICTURES = ROOT / "scenes" / "pictures"
+from study import HERE, OUTPUT, REPLICATES, SCENES, Report, abbe, bench, seconds_told, size_told
+
+PICTURES = SCENES / "pictures"
 # All thumbnails have as many pixels as one of this size, in the shape of their scene.
 WIDTH, HEIGHT = 160, 90
 # Of wall time for all scenes together: references and benchmarks get half each.
 SECONDS = 420
-REPLICATES = 8
 FROM_SPP = 8
 COMMON_SPP = 64
 TARGET = 0.01
 PLOTTED = ("prism", "ball", "gem", "cornell")
-
-
-def abbe():
-    """The release build, or the program that ABBE names."""
-    if "ABBE" in os.environ:
-        return os.environ["ABBE"]
-    subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=ROOT, check=True)
-    return str(ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release" / "abbe")
 
 
 def thumbnail(scene):
@@ -44,31 +31,16 @@ def thumbnail(scene):
     return round(film["width"] * factor), round(film["height"] * factor)
 
 
-def bench(binary, scene, seconds):
+def measure(binary, scene, seconds):
     """The report of `abbe bench`."""
-    folder = OUTPUT / scene.stem
-    folder.mkdir(parents=True, exist_ok=True)
-    line = [binary, "bench", str(scene), "--resolution", "{}x{}".format(*thumbnail(scene)), "-o", str(folder), "-q"]
-    line += ["--from-spp", str(FROM_SPP), "--replicates", str(REPLICATES), "--target", str(TARGET / 4)]
-    line += ["--time-limit", str(seconds / 2)]
-    subprocess.run(line, check=True, stdout=subprocess.DEVNULL)
-    return json.loads((folder / "bench.json").read_text(encoding="utf-8"))["scenes"][0]
+    folder = OUTPUT / "scenes" / scene.stem
+    return bench(binary, scene, thumbnail(scene), folder, "--from-spp", FROM_SPP, "--target", TARGET / 4, seconds=seconds)
 
 
 def common_budget(reports):
     """The largest budget up to COMMON_SPP that all have."""
     budgets = [{b["samples_per_pixel"] for b in report["variants"][0]["budgets"]} for report in reports]
     return max(spp for spp in set.intersection(*budgets) if spp <= COMMON_SPP)
-
-
-def seconds_told(variant):
-    [found] = [r for r in variant["time_to_target"] if r["relmse"] == TARGET]
-    if found["cpu_seconds"] is None:
-        return f"not reached in {found['not_reached_in']:.3g}"
-    if found.get("by_the_smallest_budget"):
-        return f"< {found['cpu_seconds']:.2g}"
-    high = f"{found['high_95']:.3g}" if found["high_95"] is not None else "?"
-    return f"{found['cpu_seconds']:.3g} ({found['low_95']:.3g}–{high})"
 
 
 def row(report, common):
@@ -81,10 +53,10 @@ def row(report, common):
     slope = optional(variant["slope"], "{:+.2f}") + (f" ± {error:.2f}" if error is not None else "")
     known = "too good for the reference" if shared["reference_too_noisy"] else f"{shared['relmse']:.1e} ± {shared['standard_error']:.0e}"
     return [
-        report["scene"], f"{report['width']}×{report['height']}", f"{reference['integrator']}, {reference['relmse']:.0e}",
+        report["scene"], size_told((report["width"], report["height"])), f"{reference['integrator']}, {reference['relmse']:.0e}",
         f"{last['samples_per_pixel']}",
         optional(variant["cpu_seconds_per_sample"] and variant["cpu_seconds_per_sample"] / pixels * 1e6, "{:.2f}"), known,
-        optional(variant["efficiency"], "{:.3g}"), slope, seconds_told(variant),
+        optional(variant["efficiency"], "{:.3g}"), slope, seconds_told(variant, TARGET),
         optional(last["rays_per_cpu_second"] and last["rays_per_cpu_second"] / 1e6, "{:.1f}"),
         optional(last["lane_occupancy"] and 100 * last["lane_occupancy"], "{:.0f} %"),
         optional(last["peak_memory_bytes"] and last["peak_memory_bytes"] / 2**20, "{:.0f}"),
@@ -102,41 +74,34 @@ NOTES = f"""
 """
 
 
-def write_report(binary, reports, seconds, times):
-    common = common_budget(reports)
-    heads = [
+def heads(common):
+    return [
         "scene", "pixels", "reference, its relMSE", "largest spp", "CPU µs a path", f"relMSE at {common} spp", "1/(relMSE·CPU s)", "slope",
         f"CPU s to relMSE {TARGET}", "Mrays/CPU s", "lanes in use", "peak MiB",
     ]  # fmt: skip
-    line = lambda cells: "| " + " | ".join(cells) + " |\n"
-    version = subprocess.run([binary, "--version"], check=True, capture_output=True, text=True).stdout.strip()
-    text = f"# All scenes\n\nBy `python3 validation/speed/scenes.py` in {sum(times) / 60:.0f} min, {version}, {os.cpu_count()} processors, "
-    text += f"`auto`, {seconds:.0f} s for each scene.\n\n"
-    text += line(heads) + line(["---"] * len(heads)) + "".join(line(row(report, common)) for report in reports) + NOTES
-    return text
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    scenes = sorted((ROOT / "scenes").glob("*.json"))
+    scenes = sorted(SCENES.glob("*.json"))
     parser.add_argument("--only", metavar="SCENE", action="append", choices=[scene.stem for scene in scenes])
     parser.add_argument("--seconds", type=float, help="for each scene, instead of an equal share of the whole time")
     args = parser.parse_args()
     binary = abbe()
     chosen = [scene for scene in scenes if not args.only or scene.stem in args.only]
     seconds = args.seconds or SECONDS / len(scenes)
-    reports, times = [], []
+    table, reports = Report("scenes.py", "All scenes", []), []
     for scene in chosen:
-        began = time.monotonic()
-        reports.append(bench(binary, scene, seconds))
-        times.append(time.monotonic() - began)
-        print(f"{scene.stem}: {times[-1]:.0f} s", flush=True)
-    text = write_report(binary, reports, seconds, times)
-    print(text)
+        reports.append(measure(binary, scene, seconds))
+        print(f"{scene.stem}: {time.monotonic() - table.started:.0f} s", flush=True)
+    common = common_budget(reports)
+    table.heads = heads(common)
+    for report in reports:
+        table.add(row(report, common))
     if not args.only and not args.seconds:
-        (HERE / "scenes.md").write_text(text, encoding="utf-8")
+        table.write(binary, HERE / "scenes.md", NOTES, more=f", `auto`, {seconds:.0f} s for each scene")
         for name in PLOTTED:
-            shutil.copy(OUTPUT / name / f"{name}.svg", PICTURES / f"bench-{name}.svg")
+            shutil.copy(OUTPUT / "scenes" / name / f"{name}.svg", PICTURES / f"bench-{name}.svg")
 
 
 if __name__ == "__main__":

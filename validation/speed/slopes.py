@@ -9,17 +9,13 @@ technique would show as a floor. Writes slopes.md, in about twelve minutes on tw
 import argparse
 import json
 import math
-import os
 import subprocess
-import time
 from dataclasses import dataclass
 from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
-OUTPUT = HERE / "output" / "slopes"
+from study import HERE, OUTPUT, ROOT, SCENES, Report, abbe, bench, size_told
+
 PEERS = ROOT / "validation" / "peers" / "scenes"
-SCENES = ROOT / "scenes"
 TARGET = 1e-5
 # Renders of fewer samples plan nothing.
 FROM_SPP, TO_SPP = 32, 1 << 24
@@ -47,13 +43,13 @@ class Case:
 
 # The smaller the picture, the sooner an error is reached. The costlier technique of two makes the reference.
 CASES = [
-    Case("cornell", SCENES / "cornell.json", (6, 6), "path", "light", 90),
+    Case("cornell", SCENES / "cornell.json", (4, 4), "path", "light", 90),
     Case("gem of peers", PEERS / "gem.json", (4, 4), "path", "hero", 60),
-    Case("flint", PEERS / "flint.json", (4, 4), "path", "hero", 80),
+    Case("flint", PEERS / "flint.json", (2, 2), "path", "hero", 100),
     Case("glass", PEERS / "glass.json", (8, 8), "auto", "path", 90, matte=True),
     Case("ball", SCENES / "ball.json", (12, 8), "light", "auto", 50, matte=True),
     Case("ball", SCENES / "ball.json", (12, 8), "auto", "auto", 80),
-    Case("nested", SCENES / "nested.json", (6, 6), "path", "hero", 50),
+    Case("nested", SCENES / "nested.json", (3, 3), "path", "hero", 80),
     Case("implicit", SCENES / "implicit.json", (8, 4), "path", "hero", 40),
     Case("gem", SCENES / "gem.json", (8, 6), "path", "hero", 30),
     Case("prism", SCENES / "prism.json", (12, 8), "light", "auto", 40, matte=True),
@@ -61,14 +57,6 @@ CASES = [
     Case("rainbow", SCENES / "rainbow.json", (8, 5), "light", "auto", 30, matte=True),
     Case("achromat", SCENES / "achromat.json", (8, 4), "light", "auto", 30, matte=True),
 ]
-
-
-def abbe():
-    """The release build, or the program that ABBE names."""
-    if "ABBE" in os.environ:
-        return os.environ["ABBE"]
-    subprocess.run(["cargo", "build", "--release", "--quiet"], cwd=ROOT, check=True)
-    return str(ROOT / os.environ.get("CARGO_TARGET_DIR", "target") / "release" / "abbe")
 
 
 def write_mask(binary, case, path):
@@ -87,24 +75,22 @@ def write_mask(binary, case, path):
     copy = case.scene.with_name(f"{case.scene.stem}-matte.json")
     try:
         copy.write_text(json.dumps(scene), encoding="utf-8")
-        line = [binary, "render", str(copy), "-q", "--resolution", "{}x{}".format(*case.size), "--integrator", "path"]
+        line = [binary, "render", str(copy), "-q", "--resolution", size_told(case.size, "x"), "--integrator", "path"]
         subprocess.run([*line, "--spp", "1024", "--adaptive", "off", "-o", str(path)], check=True)
     finally:
         copy.unlink(missing_ok=True)
 
 
-def bench(binary, case, seconds):
+def measure(binary, case, seconds):
     """The report of `abbe bench`."""
-    folder = OUTPUT / "-".join([case.name, case.integrator, case.reference] + ["matte"] * case.matte)
+    folder = OUTPUT / "slopes" / "-".join([case.name, case.integrator, case.reference] + ["matte"] * case.matte)
     folder.mkdir(parents=True, exist_ok=True)
-    line = [binary, "bench", str(case.scene), "--resolution", "{}x{}".format(*case.size), "-o", str(folder)]
+    arguments = ["--vary", f"integrator={case.integrator}", "--reference", case.reference, "--target", TARGET]
+    arguments += ["--from-spp", FROM_SPP, "--to-spp", TO_SPP]
     if case.matte:
         write_mask(binary, case, folder / "matte.exr")
-        line += ["--mask", str(folder / "matte.exr")]
-    line += ["--vary", f"integrator={case.integrator}", "--reference", case.reference, "--target", str(TARGET)]
-    line += ["--from-spp", str(FROM_SPP), "--to-spp", str(TO_SPP), "--time-limit", str(seconds / 2), "-q"]
-    subprocess.run(line, check=True, stdout=subprocess.DEVNULL)
-    return json.loads((folder / "bench.json").read_text(encoding="utf-8"))["scenes"][0]
+        arguments += ["--mask", folder / "matte.exr"]
+    return bench(binary, case.scene, case.size, folder, *arguments, seconds=seconds)
 
 
 def floor_seen(budgets):
@@ -131,7 +117,7 @@ def row(case, report):
     made = f"{case.reference}, relMSE {reference['relmse']:.1e}"
     if case.reference == case.integrator:
         made = f"{case.reference} with other seeds, relMSE {reference['relmse']:.1e}"
-    cells = [case.name, "matte, seen directly" if case.matte else "whole picture", "{}×{}".format(*case.size)]
+    cells = [case.name, "matte, seen directly" if case.matte else "whole picture", size_told(case.size)]
     cells += [case.integrator, made]
     if not judged:
         return [*cells, "–", "reference too noisy", "no", "–", "–", "–"]
@@ -174,20 +160,12 @@ def main():
     parser.add_argument("--only", metavar="SCENE", action="append", choices=sorted({case.name for case in CASES}))
     parser.add_argument("--seconds", type=float, help="for each case, instead of its own")
     args = parser.parse_args()
-    binary, started = abbe(), time.monotonic()
-    line = lambda cells: "| " + " | ".join(cells) + " |\n"
-    table = ""
+    binary, report = abbe(), Report("slopes.py", "How error falls", HEADS)
     for case in CASES:
         if not args.only or case.name in args.only:
-            began = time.monotonic()
-            text = line(row(case, bench(binary, case, args.seconds or case.seconds)))
-            print(f"{time.monotonic() - began:.0f} s: {text}", end="", flush=True)
-            table += text
+            report.add(row(case, measure(binary, case, args.seconds or case.seconds)))
     if not args.only and not args.seconds:
-        version = subprocess.run([binary, "--version"], check=True, capture_output=True, text=True).stdout.strip()
-        text = f"# How error falls\n\nBy `python3 validation/speed/slopes.py` in {(time.monotonic() - started) / 60:.0f} min, {version}, "
-        text += f"{os.cpu_count()} processors.\n\n" + line(HEADS) + line(["---"] * len(HEADS)) + table + NOTES
-        (HERE / "slopes.md").write_text(text, encoding="utf-8")
+        report.write(binary, HERE / "slopes.md", NOTES)
 
 
 if __name__ == "__main__":
