@@ -2,7 +2,7 @@
 """What adaptive sampling is worth: `python3 validation/speed/adaptive.py [--only SCENE]... [--seconds S]`.
 
 CPU time to a relMSE of 1 %, and of 0.1 % where that is reached, with it and without it, by `abbe bench --vary adaptive=on,off` on small pictures, both taking
-turns. Writes adaptive.md, in about four minutes on two cores.
+turns. Writes adaptive.md, in about ten minutes on two cores.
 """
 
 import argparse
@@ -26,9 +26,9 @@ class Case:
 
 
 CASES = [
-    Case("prism", (192, 120), "auto", 60),
-    Case("gem", (96, 72), "auto", 110),
-    Case("cornell", (96, 96), "light", 60),
+    Case("prism", (192, 120), "auto", 120),
+    Case("gem", (64, 48), "auto", 320),
+    Case("cornell", (96, 96), "light", 200),
 ]
 
 
