@@ -14,8 +14,8 @@ def target_folder():
 
 
 def abbe_binary():
-    """The command, brought up to date first; or the program that ABBE names."""
+    """The command, brought up to date first; or the file that ABBE names."""
     if "ABBE" in os.environ:
-        return Path(os.environ["ABBE"])
+        return Path(os.environ["ABBE"]).resolve()  # "./abbe" would be looked for on the PATH
     subprocess.run(["cargo", "build", "--profile", PROFILE, "--quiet", "--bin", "abbe"], cwd=ROOT, check=True)
     return target_folder() / ("debug" if PROFILE == "dev" else PROFILE) / ("abbe.exe" if os.name == "nt" else "abbe")

@@ -14,7 +14,7 @@ import subprocess
 import zlib
 from dataclasses import dataclass, field
 
-from study import HERE, OUTPUT, SCENES, Report, abbe, bench, reached, seconds_told, size_told
+from study import HERE, OUTPUT, REPLICATES, SCENES, Report, abbe, bench, reached, seconds_told, size_told
 
 TARGET = 0.1
 
@@ -130,8 +130,8 @@ def rows(binary, case, quick):
 
 
 HEADS = ["scene", "where", "pixels", "integrator", f"CPU s to relMSE {TARGET}", "auto is faster by", "1/(relMSE·CPU s)"]
-NOTES = """
-* Ranges are of 95 %, from eight runs of each budget. "Not reached": one render with so many CPU seconds.
+NOTES = f"""
+* `auto`, and `hero` in gem: {REPLICATES} runs of each budget, ranges of 95 %. All other rows: one render of so many CPU seconds.
 """
 
 
