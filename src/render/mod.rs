@@ -16,6 +16,7 @@ mod plan;
 mod profile;
 mod scatter;
 mod schedule;
+mod split;
 mod stopping;
 mod techniques;
 mod walk;
@@ -197,7 +198,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             }
             if ending == Ending::Done && state.done.samples < self.settings.samples_per_pixel {
                 state.spent.close_segment(state.segment.taken(state.done.samples), allocation);
-                allocation = allocation.next(&film, &state.spent);
+                allocation = allocation.next(&film, state.done, &state.spent);
                 state.mark_merged(&mut film);
                 if state.adaptive.is_some() {
                     film.close_stage();
