@@ -1,7 +1,8 @@
 //! How the work is split between techniques: with variances V and costs c of their parts of the picture, the error for a given
-//! cost is least with numbers in proportion to √(V / c).
+//! cost is least with numbers in proportion to √(V / c). And within camera paths, see [`super::split`].
 
 use super::schedule::Work;
+use super::split::Behind;
 use crate::film::Film;
 
 /// Variance of a pixel relative to its brightness squared beyond which it counts as this: the error of a pixel that has
@@ -22,6 +23,8 @@ pub struct Allocation {
     pub light: f64,
     /// Passes of merging for each sample of a pixel.
     pub merged: f64,
+    /// Paths that go on from the first matte surface of a camera path.
+    pub splits: u8,
 }
 
 /// Rays traced by each technique, and what else the next split depends on.
@@ -36,25 +39,31 @@ pub struct Spent {
     /// Sum over samples of closed segments of the inverse number of light paths for each, which their variance goes with: in
     /// each segment light paths count as much as camera paths, however few they are.
     inverse_light: f64,
+    /// The same of the variance and the cost of camera paths, relative to those of paths that are not split.
+    camera_variance: f64,
+    camera_cost: f64,
 }
 
 impl Spent {
     /// Ends a segment of some samples of a pixel.
-    pub fn close_segment(&mut self, samples: u64, allocation: Allocation) {
-        self.inverse_light += samples as f64 / allocation.light;
+    pub fn close_segment(&mut self, samples: u64, allocation: Allocation, behind: Behind) {
+        let samples = samples as f64;
+        self.inverse_light += samples / allocation.light;
+        self.camera_variance += samples * behind.variance_of(allocation.splits);
+        self.camera_cost += samples * behind.cost_of(allocation.splits);
     }
 }
 
 impl Allocation {
     /// Before anything is known.
-    pub const START: Self = Self { light: 0.5, merged: 0.5 };
+    pub const START: Self = Self { light: 0.5, merged: 0.5, splits: 0 };
 
     /// The best split, after what has been measured with earlier ones: a film, the work that has made it, and the rays that
-    /// this took.
-    pub fn next(self, film: &Film, done: Work, spent: &Spent) -> Self {
+    /// this took; `behind` is what is known of splits.
+    pub fn next(self, film: &Film, done: Work, spent: &Spent, behind: Behind) -> Self {
         let Some(variances) = film.relative_variances(LARGEST) else { return self };
         // Of one path or pass, in units of those of a sample.
-        let better = |before: f64, variance: f64, cost: f64, most: f64| {
+        let better = |before: f64, [variance, cost]: [f64; 2], most: f64| {
             let least = (LEAST_SHARE / cost).min(most);
             let best = (variance / cost).sqrt();
             if best.is_nan() { before } else { best.clamp(least, most) }
@@ -66,10 +75,21 @@ impl Allocation {
         let cost = |rays: u64, number: f64| rays as f64 / (spent.camera as f64 * number);
         let of_a_light_path = variances.light / variances.camera * samples / spent.inverse_light;
         let of_a_pass = variances.merged / variances.camera * merged;
-        Self {
-            light: better(self.light, of_a_light_path, cost(spent.light, light), MOST_LIGHT_PATHS),
-            merged: better(self.merged, of_a_pass, cost(spent.merged, merged), MOST_MERGE_PASSES),
-        }
+        let (of_light, of_merged) =
+            ([of_a_light_path, cost(spent.light, light)], [of_a_pass, cost(spent.merged, merged)]);
+        let light = better(self.light, of_light, MOST_LIGHT_PATHS);
+        let merged = better(self.merged, of_merged, MOST_MERGE_PASSES);
+        // Of both with that split, in units of those of a sample that is not split.
+        let part = |[variance, cost]: [f64; 2], number: f64| {
+            if cost > 0.0 {
+                [variance / number * spent.camera_variance, cost * number * spent.camera_cost]
+            } else {
+                [0.0; 2]
+            }
+        };
+        let (of_light, of_merged) = (part(of_light, light), part(of_merged, merged));
+        let others = [0, 1].map(|i| (of_light[i] + of_merged[i]) / samples);
+        Self { light, merged, splits: behind.best_splits(others).max(self.splits) }
     }
 }
 
@@ -93,15 +113,15 @@ mod tests {
     fn next(values: [f64; 2], light: u64, segments: &[(u64, f64)]) -> Allocation {
         let mut spent = Spent { camera: 100, light, ..Spent::default() };
         let mut done = Work::default();
-        let mut split = Allocation { light: 0.5, merged: 0.5 };
+        let mut split = Allocation::START;
         for &(samples, light) in segments {
             split.light = light;
-            spent.close_segment(samples, split);
+            spent.close_segment(samples, split, Behind::default());
             done.samples += samples;
             done.light_paths += (samples as f64 * light) as u64;
             done.merging += samples as f64 * split.merged;
         }
-        split.next(&film(values), done, &spent)
+        split.next(&film(values), done, &spent, Behind::default())
     }
 
     /// Equal variances and costs keep the split; four times the variance doubles the number.

@@ -197,8 +197,9 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 break;
             }
             if ending == Ending::Done && state.done.samples < self.settings.samples_per_pixel {
-                state.spent.close_segment(state.segment.taken(state.done.samples), allocation);
-                allocation = allocation.next(&film, state.done, &state.spent);
+                let (samples, behind) = (state.segment.taken(state.done.samples), self.plan.behind);
+                state.spent.close_segment(samples, allocation, behind);
+                allocation = allocation.next(&film, state.done, &state.spent, behind);
                 state.mark_merged(&mut film);
                 if state.adaptive.is_some() {
                     film.close_stage();
@@ -238,6 +239,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         if let (Some(target), Some(bound)) = (self.settings.target_error, state.error_bound) {
             end = next_look(samples, bound / target, end);
         }
+        self.plan.camera.splits = allocation.splits;
         let mut split = allocation;
         match &mut self.plan.techniques {
             Techniques::Path => split.light = 0.0,

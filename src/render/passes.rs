@@ -6,7 +6,7 @@ use super::fork::Branching;
 use super::light::{LightTracer, Splatter};
 use super::schedule::Segment;
 use super::techniques::Techniques;
-use super::walk::{Behind, Parting, Walk};
+use super::walk::{FoundBehind, Parting, Walk};
 use super::workspace::{Counters, Workspace};
 use super::{Renderer, baseline, path};
 use crate::film::{CAMERA_REPLICATES, Film, LIGHT_REPLICATES, PixelSums, Sensor, Splat};
@@ -196,7 +196,7 @@ pub struct CameraSample {
     /// Radiance that arrives.
     pub radiance: SampledSpectrum,
     /// The part of it from behind the surface where it split.
-    pub behind: Behind,
+    pub behind: FoundBehind,
 }
 
 /// What was found in a tile.

@@ -1,5 +1,5 @@
 //! A short render, thrown away, from which the plan learns: how many lanes are worth following, where light paths start, and
-//! how many paths go on from matte surfaces.
+//! what splits would gain.
 
 use super::Renderer;
 use super::fork::Branching;
@@ -88,9 +88,9 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             self.plan = plan;
         }
         if matches!(self.settings.integrator, Integrator::Auto | Integrator::Merge) {
-            let (splits, count) = self.best_splits();
+            let (behind, count) = self.look_behind();
             counters.add(count);
-            self.plan.camera.splits = splits;
+            self.plan.behind = behind;
         }
         (self, counters)
     }

@@ -6,6 +6,7 @@ use super::allocation::Allocation;
 use super::fork::{Branching, NEVER};
 use super::guide::Guide;
 use super::merge::Merging;
+use super::split::Behind;
 use super::techniques::Techniques;
 use super::walk::Parting;
 use crate::sampling::AliasTable;
@@ -30,6 +31,8 @@ pub struct Plan {
     pub camera: Branching,
     /// Where light paths do.
     pub light: Branching,
+    /// What is known of splits.
+    pub behind: Behind,
     /// How photons are merged, if they are.
     pub merging: Option<Merging>,
 }
@@ -73,6 +76,7 @@ impl Plan {
                 _ => Branching { parting: ways(USUAL_WAYS), least_share: LIGHT_LEAST_SHARE, splits: 0 },
             },
             techniques,
+            behind: Behind::default(),
             merging: None,
         }
     }

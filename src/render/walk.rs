@@ -48,7 +48,7 @@ pub struct Walk<'a> {
     /// Paths that go on from the first matte surface, see [`super::split`].
     pub splits: u8,
     /// What was found there.
-    pub behind: Behind,
+    pub behind: FoundBehind,
     /// Scattering events so far.
     pub depth: u32,
     /// Boundaries crossed so far that did nothing.
@@ -102,7 +102,7 @@ pub struct Standing {
 
 /// What a path has found behind the surface where it split.
 #[derive(Debug, Clone, Copy)]
-pub struct Behind {
+pub struct FoundBehind {
     /// Radiance, part of that of the path.
     pub radiance: SampledSpectrum,
     /// Rays traced there.
@@ -144,7 +144,7 @@ impl<'a> Walk<'a> {
             parting,
             least_share,
             splits,
-            behind: Behind { radiance: SampledSpectrum::ZERO, rays: 0 },
+            behind: FoundBehind { radiance: SampledSpectrum::ZERO, rays: 0 },
             depth: 0,
             passed: 0,
             sobol,
