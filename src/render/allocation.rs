@@ -1,8 +1,6 @@
 //! How the work is split between techniques: with variances V and costs c of their parts of the picture, the error for a given
-//! cost is least with numbers in proportion to √(V / c). And within camera paths, see [`super::split`].
+//! cost is least with numbers in proportion to √(V / c).
 
-use super::schedule::Work;
-use super::split::Behind;
 use crate::film::Film;
 
 /// Variance of a pixel relative to its brightness squared beyond which it counts as this: the error of a pixel that has
@@ -23,11 +21,9 @@ pub struct Allocation {
     pub light: f64,
     /// Passes of merging for each sample of a pixel.
     pub merged: f64,
-    /// Paths that go on from the first matte surface of a camera path.
-    pub splits: u8,
 }
 
-/// Rays traced by each technique, and what else the next split depends on.
+/// Rays traced by each technique, and the splits by which they were.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Spent {
     /// For camera paths.
@@ -36,60 +32,50 @@ pub struct Spent {
     pub light: u64,
     /// For merging.
     pub merged: u64,
-    /// Sum over samples of closed segments of the inverse number of light paths for each, which their variance goes with: in
-    /// each segment light paths count as much as camera paths, however few they are.
+    /// Samples of a pixel in closed segments.
+    samples: f64,
+    /// Sums over them of the split, and of the inverse number of light paths, which their variance goes with: in each
+    /// segment light paths count as much as camera paths, however few they are.
+    allocated: Allocation,
     inverse_light: f64,
-    /// The same of the variance and the cost of camera paths, relative to those of paths that are not split.
-    camera_variance: f64,
-    camera_cost: f64,
 }
 
 impl Spent {
     /// Ends a segment of some samples of a pixel.
-    pub fn close_segment(&mut self, samples: u64, allocation: Allocation, behind: Behind) {
+    pub fn close_segment(&mut self, samples: u64, allocation: Allocation) {
         let samples = samples as f64;
+        self.samples += samples;
+        self.allocated.light += samples * allocation.light;
+        self.allocated.merged += samples * allocation.merged;
         self.inverse_light += samples / allocation.light;
-        self.camera_variance += samples * behind.variance_of(allocation.splits);
-        self.camera_cost += samples * behind.cost_of(allocation.splits);
     }
 }
 
 impl Allocation {
     /// Before anything is known.
-    pub const START: Self = Self { light: 0.5, merged: 0.5, splits: 0 };
+    pub const START: Self = Self { light: 0.5, merged: 0.5 };
 
-    /// The best split, after what has been measured with earlier ones: a film, the work that has made it, and the rays that
-    /// this took; `behind` is what is known of splits.
-    pub fn next(self, film: &Film, done: Work, spent: &Spent, behind: Behind) -> Self {
+    /// The best split, after what has been measured with earlier ones from a film and the rays that it took.
+    pub fn next(self, film: &Film, spent: &Spent) -> Self {
         let Some(variances) = film.relative_variances(LARGEST) else { return self };
         // Of one path or pass, in units of those of a sample.
-        let better = |before: f64, [variance, cost]: [f64; 2], most: f64| {
+        let better = |before: f64, variance: f64, cost: f64, most: f64| {
             let least = (LEAST_SHARE / cost).min(most);
             let best = (variance / cost).sqrt();
             if best.is_nan() { before } else { best.clamp(least, most) }
         };
-        let samples = done.samples as f64;
-        let pixels = f64::from(film.width()) * f64::from(film.height());
-        // Light paths for each camera path, and passes for each sample of a pixel, over all that was done.
-        let (light, merged) = (done.light_paths as f64 / (pixels * samples), done.merging / samples);
-        let cost = |rays: u64, number: f64| rays as f64 / (spent.camera as f64 * number);
-        let of_a_light_path = variances.light / variances.camera * samples / spent.inverse_light;
-        let of_a_pass = variances.merged / variances.camera * merged;
-        let (of_light, of_merged) =
-            ([of_a_light_path, cost(spent.light, light)], [of_a_pass, cost(spent.merged, merged)]);
-        let light = better(self.light, of_light, MOST_LIGHT_PATHS);
-        let merged = better(self.merged, of_merged, MOST_MERGE_PASSES);
-        // Of both with that split, in units of those of a sample that is not split.
-        let part = |[variance, cost]: [f64; 2], number: f64| {
-            if cost > 0.0 {
-                [variance / number * spent.camera_variance, cost * number * spent.camera_cost]
-            } else {
-                [0.0; 2]
-            }
-        };
-        let (of_light, of_merged) = (part(of_light, light), part(of_merged, merged));
-        let others = [0, 1].map(|i| (of_light[i] + of_merged[i]) / samples);
-        Self { light, merged, splits: behind.best_splits(others).max(self.splits) }
+        let cost = |rays: u64, allocated: f64| spent.samples / allocated * rays as f64 / spent.camera as f64;
+        let (of_light, of_merged) = (variances.light / variances.camera, variances.merged / variances.camera);
+        let of_a_pass = of_merged * spent.allocated.merged / spent.samples;
+        Self {
+            light: better(
+                self.light,
+                of_light * spent.samples / spent.inverse_light,
+                cost(spent.light, spent.allocated.light),
+                MOST_LIGHT_PATHS,
+            ),
+            merged: better(self.merged, of_a_pass, cost(spent.merged, spent.allocated.merged), MOST_MERGE_PASSES),
+        }
     }
 }
 
@@ -108,28 +94,22 @@ mod tests {
         film
     }
 
-    /// The split that follows segments of so many samples, each with so many light paths for each of them, if all light
-    /// paths take `light` rays and all camera paths 100.
-    fn next(values: [f64; 2], light: u64, segments: &[(u64, f64)]) -> Allocation {
+    fn spent(light: u64, segments: &[(u64, f64)]) -> Spent {
         let mut spent = Spent { camera: 100, light, ..Spent::default() };
-        let mut done = Work::default();
-        let mut split = Allocation::START;
         for &(samples, light) in segments {
-            split.light = light;
-            spent.close_segment(samples, split, Behind::default());
-            done.samples += samples;
-            done.light_paths += (samples as f64 * light) as u64;
-            done.merging += samples as f64 * split.merged;
+            spent.close_segment(samples, Allocation { light, merged: 0.5 });
         }
-        split.next(&film(values), done, &spent, Behind::default())
+        spent
     }
 
     /// Equal variances and costs keep the split; four times the variance doubles the number.
     #[test]
     fn follows_variance_and_cost() {
         for ratio in [1.0, 0.25] {
+            let spent = spent(100, &[(4, ratio)]);
+            let before = Allocation { light: ratio, merged: 0.5 };
             for (light, factor) in [([0.9, 1.1], 1.0), ([0.8, 1.2], 2.0)] {
-                let next = next(light, 100, &[(4, ratio)]);
+                let next = before.next(&film(light), &spent);
                 assert!((next.light - factor * ratio).abs() < 1e-9, "{next:?}");
                 assert_eq!(next.merged, 0.5, "nothing is known of it");
             }
@@ -140,7 +120,7 @@ mod tests {
     /// that of 1.
     #[test]
     fn earlier_splits_count() {
-        let next = next([0.9, 1.1], 100, &[(4, 1.0), (4, 0.25)]);
+        let next = Allocation { light: 0.25, merged: 0.5 }.next(&film([0.9, 1.1]), &spent(100, &[(4, 1.0), (4, 0.25)]));
         let (variance, cost) = (0.4, 1.0 / 0.625);
         assert!((next.light - f64::sqrt(variance / cost)).abs() < 1e-9, "{next:?}");
     }
@@ -148,8 +128,9 @@ mod tests {
     /// What brings no noise takes a small share of the rays; what brings it all has a bound.
     #[test]
     fn bounds() {
-        let least = next([1.0, 1.0], 200, &[(4, 0.5)]);
-        assert!((least.light * 4.0 - LEAST_SHARE).abs() < 1e-9, "{least:?}");
-        assert_eq!(next([-99.0, 101.0], 1, &[(4, 0.5)]).light, MOST_LIGHT_PATHS);
+        let before = Allocation { light: 0.5, merged: 0.5 };
+        let next = before.next(&film([1.0, 1.0]), &spent(200, &[(4, 0.5)]));
+        assert!((next.light * 4.0 - LEAST_SHARE).abs() < 1e-9, "{next:?}");
+        assert_eq!(before.next(&film([-99.0, 101.0]), &spent(1, &[(4, 0.5)])).light, MOST_LIGHT_PATHS);
     }
 }

@@ -4,7 +4,7 @@
 //! least share is drawn by chance as ever.
 //!
 //! Paths fork along specular surfaces alone, up to the first other one: weights against other techniques are functions of
-//! the path that they share, and what comes from behind that surface is for [`super::split`].
+//! the path that they share, and nothing behind that surface is worth more rays than one path has.
 
 use super::walk::{Parting, Walk};
 use super::workspace::Interiors;
@@ -22,8 +22,6 @@ pub struct Branching {
     pub parting: Parting,
     /// The path forks where both parts carry at least this share of what it started with.
     pub least_share: f32,
-    /// Paths that go on from the first matte surface, see [`super::split`]; 0 where that is just the path itself.
-    pub splits: u8,
 }
 
 /// A reflection that is to be followed later.
@@ -145,7 +143,7 @@ mod tests {
                     workspace.spectra.begin(scene.wavelengths.sample(u[2]));
                     workspace.interiors.reset(&[]);
                     workspace.counters = Default::default();
-                    let branching = Branching { parting: Parting::Ways(8), least_share, splits: 0 };
+                    let branching = Branching { parting: Parting::Ways(8), least_share };
                     let mut walk = Walk::start(scene, &mut workspace, ray, (0, branching), (sobol, 0));
                     let radiance = path::radiance::<true, true>(&mut walk, &Techniques::Path, 4096);
                     rays[trial] += workspace.counters.rays;

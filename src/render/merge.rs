@@ -293,7 +293,7 @@ impl<const DISPERSION: bool, const INTERIORS: bool> Renderer<'_, DISPERSION, INT
     ) {
         let sobol = Sobol::new(mix(self.settings.seed) ^ (u64::from(pixel) << 8 | MERGE_STREAM));
         let u = sobol.group(pass, 0);
-        let mut walk = self.camera_walk(workspace, pixel, wavelengths, u, (self.plan.camera, sobol, pass));
+        let mut walk = self.camera_walk(workspace, pixel, wavelengths, u, (sobol, pass));
         let camera_indices = if INTERIORS { Some(path::medium_indices(&mut walk)) } else { None };
         let (techniques, max_depth) = (&self.plan.techniques, self.settings.max_depth);
         let mut visit = |walk: &mut Walk, vertex: Vertex| visit(walk, vertex, &camera_indices);

@@ -16,7 +16,6 @@ mod plan;
 mod profile;
 mod scatter;
 mod schedule;
-mod split;
 mod stopping;
 mod techniques;
 mod walk;
@@ -197,9 +196,8 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 break;
             }
             if ending == Ending::Done && state.done.samples < self.settings.samples_per_pixel {
-                let (samples, behind) = (state.segment.taken(state.done.samples), self.plan.behind);
-                state.spent.close_segment(samples, allocation, behind);
-                allocation = allocation.next(&film, state.done, &state.spent, behind);
+                state.spent.close_segment(state.segment.taken(state.done.samples), allocation);
+                allocation = allocation.next(&film, &state.spent);
                 state.mark_merged(&mut film);
                 if state.adaptive.is_some() {
                     film.close_stage();
@@ -239,7 +237,6 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         if let (Some(target), Some(bound)) = (self.settings.target_error, state.error_bound) {
             end = next_look(samples, bound / target, end);
         }
-        self.plan.camera.splits = allocation.splits;
         let mut split = allocation;
         match &mut self.plan.techniques {
             Techniques::Path => split.light = 0.0,

@@ -6,7 +6,7 @@ use super::fork::Branching;
 use super::light::{LightTracer, Splatter};
 use super::schedule::Segment;
 use super::techniques::Techniques;
-use super::walk::{FoundBehind, Parting, Walk};
+use super::walk::{Parting, Walk};
 use super::workspace::{Counters, Workspace};
 use super::{Renderer, baseline, path};
 use crate::film::{CAMERA_REPLICATES, Film, LIGHT_REPLICATES, PixelSums, Sensor, Splat};
@@ -83,34 +83,23 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         workspace: &mut Workspace,
         pixel: u32,
         sample: u64,
-        stream: (u64, Branching),
+        (seed, branching): (u64, Branching),
         sums: &mut PixelSums,
     ) -> bool {
-        let CameraSample { replicate, wavelengths, radiance, .. } = self.camera_path(workspace, pixel, sample, stream);
-        sums.add_sample(replicate, self.xyz(&wavelengths, radiance))
-    }
-
-    /// The same path and what it found, unmeasured.
-    pub fn camera_path(
-        &self,
-        workspace: &mut Workspace,
-        pixel: u32,
-        sample: u64,
-        (seed, branching): (u64, Branching),
-    ) -> CameraSample {
         let replicate = (sample % CAMERA_REPLICATES as u64) as usize;
         let index = sample / CAMERA_REPLICATES as u64;
         let sobol = Sobol::new(seed ^ (u64::from(pixel) << 8 | replicate as u64));
         let u = sobol.group(index, 0);
         let baseline = branching.parting == Parting::Terminate;
         let wavelengths = if baseline { baseline::wavelengths(u[2]) } else { self.scene.wavelengths.sample(u[2]) };
-        let mut walk = self.camera_walk(workspace, pixel, wavelengths, u, (branching, sobol, index));
+        let mut walk = self.camera_walk(workspace, pixel, wavelengths, u, (sobol, index));
+        (walk.parting, walk.least_share) = (branching.parting, branching.least_share);
         if baseline {
             (walk.hero, walk.throughput) = (0, baseline::throughput());
         }
         let radiance =
             path::radiance::<DISPERSION, INTERIORS>(&mut walk, &self.plan.techniques, self.settings.max_depth);
-        CameraSample { replicate, wavelengths, radiance, behind: walk.behind }
+        sums.add_sample(replicate, self.xyz(&wavelengths, radiance))
     }
 
     /// The start of a camera path. Pixel, wavelengths and lens share the first group of random numbers.
@@ -120,7 +109,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         pixel: u32,
         wavelengths: Wavelengths,
         u: [f32; DIMENSIONS],
-        (branching, sobol, index): (Branching, Sobol, u64),
+        random: (Sobol, u64),
     ) -> Walk<'w>
     where
         'a: 'w,
@@ -136,7 +125,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 None => workspace.interiors.reset(&self.scene.interiors_at(ray.origin)),
             }
         }
-        Walk::start(self.scene, workspace, ray, (hero, branching), (sobol, index))
+        Walk::start(self.scene, workspace, ray, (hero, self.plan.camera), random)
     }
 
     pub fn xyz(&self, wavelengths: &Wavelengths, radiance: SampledSpectrum) -> [f64; 3] {
@@ -185,18 +174,6 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         }
         (splatter.splats, workspace.counters)
     }
-}
-
-/// What a camera path found.
-pub struct CameraSample {
-    /// The replicate that it belongs to.
-    pub replicate: usize,
-    /// Its wavelengths.
-    pub wavelengths: Wavelengths,
-    /// Radiance that arrives.
-    pub radiance: SampledSpectrum,
-    /// The part of it from behind the surface where it split.
-    pub behind: FoundBehind,
 }
 
 /// What was found in a tile.

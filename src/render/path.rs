@@ -1,7 +1,6 @@
 //! Camera paths with next-event estimation.
 
 use super::scatter::{Bounce, Met};
-use super::split::LEAST_CARRIED_TO_SPLIT;
 use super::techniques::{Seen, Techniques};
 use super::walk::{Crossing, Parting, Walk};
 use crate::bsdf::{Bsdf, Indices, Lanes, RoughDielectric};
@@ -118,14 +117,8 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
                 let numbers = towards_light.unwrap_or([u[4], u[5]]);
                 let direct = direct_light::<INTERIORS>(walk, context.techniques, before, receiver, numbers);
                 radiance += direct * walk.throughput * radiance_ratio::<INTERIORS>(walk, &context.camera_indices);
-                if !bsdf.is_rough() {
-                    if !walk.diffused() {
-                        break;
-                    }
-                    if walk.splits > 0 && matches!(before, Seen::Nothing) && walk.carried() >= LEAST_CARRIED_TO_SPLIT {
-                        radiance += split::<DISPERSION, INTERIORS>(walk, context, receiver, seen);
-                        break;
-                    }
+                if !bsdf.is_rough() && !walk.diffused() {
+                    break;
                 }
             }
             // The first surface seen that is rough is known by how likely the path leaves it as it does.
@@ -157,33 +150,6 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
         }
         towards_light = Some([u[2], u[3]]);
     }
-    radiance
-}
-
-/// The mean radiance of the paths that go on from the first matte surface, see [`super::split`].
-#[inline(never)]
-fn split<const DISPERSION: bool, const INTERIORS: bool>(
-    walk: &mut Walk,
-    context: &Context,
-    Receiver { surface, bsdf, frame, glossy, .. }: Receiver,
-    seen: Seen,
-) -> SampledSpectrum {
-    let standing = walk.stand::<INTERIORS>();
-    let rays = walk.workspace.counters.rays;
-    let mut radiance = SampledSpectrum::ZERO;
-    for part in 0..walk.splits {
-        walk.stand_again::<INTERIORS>(&standing, part);
-        let u = walk.random();
-        let Bounce::Along(Some(pdf)) = walk.bounce(surface, bsdf, frame, [u[0], u[1], u[7]]) else { continue };
-        if walk.survives(u[6]) {
-            let origin = Origin::Scattered { from: surface.point, pdf, glossy };
-            radiance += follow::<DISPERSION, INTERIORS>(walk, context, origin, seen, Some([u[2], u[3]]));
-        }
-    }
-    walk.stand_no_more(&standing);
-    let radiance = radiance * (1.0 / f32::from(walk.splits));
-    walk.behind.radiance += radiance;
-    walk.behind.rays += walk.workspace.counters.rays - rays;
     radiance
 }
 

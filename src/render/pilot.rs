@@ -1,5 +1,5 @@
-//! A short render, thrown away, from which the plan learns: how many lanes are worth following, where light paths start, and
-//! what splits would gain.
+//! A short render, thrown away, from which the plan learns: how many lanes are worth following, and where light paths
+//! start.
 
 use super::Renderer;
 use super::fork::Branching;
@@ -12,7 +12,6 @@ use super::walk::Parting;
 use super::workspace::{Counters, Workspace};
 use crate::film::{Filter, PixelSums, Xyz};
 use crate::sampling::{Sobol, mix};
-use crate::scene::Integrator;
 use rayon::prelude::*;
 
 /// Numbers of ways that are tried. Eight have been the best nowhere, and to try them would cost as much as all others.
@@ -29,7 +28,7 @@ const LIGHT_PATHS: u64 = 1 << 16;
 /// samples say about the variance is mostly chance.
 const LARGEST_VARIANCE: f64 = 64.0;
 /// What a path costs beside its rays, in rays.
-pub const COST_OF_A_PATH: f64 = 1.0;
+const COST_OF_A_PATH: f64 = 1.0;
 
 /// A trial of camera paths: of each square the samples' values.
 struct CameraTrial {
@@ -77,27 +76,13 @@ impl Brightness {
 
 impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION, INTERIORS> {
     /// The plan of this renderer, bettered by a pilot if that pays.
-    pub fn piloted(mut self) -> (Self, Counters) {
+    pub fn piloted(self) -> (Self, Counters) {
+        let light = matches!(self.plan.techniques, Techniques::CameraAndLight { .. });
+        let bundles = self.scene.features.dispersion && matches!(self.plan.camera.parting, Parting::Ways(_));
+        if self.settings.samples_per_pixel < LEAST_SAMPLES || !(light || bundles) || self.light_only() {
+            return (self, Counters::default());
+        }
         let mut counters = Counters::default();
-        if self.settings.samples_per_pixel < LEAST_SAMPLES || self.light_only() {
-            return (self, counters);
-        }
-        let light = matches!(self.plan.techniques, Techniques::CameraAndLight { .. });
-        if light || (self.scene.features.dispersion && self.plan.camera.parting != Parting::Terminate) {
-            let plan = self.learn_ways(&mut counters);
-            self.plan = plan;
-        }
-        if matches!(self.settings.integrator, Integrator::Auto | Integrator::Merge) {
-            let (behind, count) = self.look_behind();
-            counters.add(count);
-            self.plan.behind = behind;
-        }
-        (self, counters)
-    }
-
-    /// A plan with the best number of ways, and with a guide where there are light paths.
-    fn learn_ways(&self, counters: &mut Counters) -> Plan {
-        let light = matches!(self.plan.techniques, Techniques::CameraAndLight { .. });
         let ways: &[u8] = if self.scene.features.dispersion { &WAYS } else { &WAYS[..1] };
         let camera: Vec<CameraTrial> = ways.iter().map(|&ways| self.camera_trial(ways)).collect();
         let lights: Vec<LightTrial> =
@@ -105,8 +90,9 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         counters.rays += camera.iter().map(|t| t.rays).chain(lights.iter().map(|t| t.rays)).sum::<u64>();
         let brightness = self.brightness(&camera, &lights);
 
-        let pixel_of = |square| self.pilot_pixel(square, SQUARE);
-        let best_camera = best(camera.iter().map(|t| t.variance(&brightness, pixel_of) * t.cost_of_a_path()));
+        let best_camera = best(
+            camera.iter().map(|t| t.variance(&brightness, |square| self.pilot_pixel(square)) * t.cost_of_a_path()),
+        );
         let mut plan = self.plan.clone();
         plan.camera.parting = Parting::Ways(ways[best_camera]);
         if light {
@@ -114,7 +100,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             plan.light.parting = Parting::Ways(ways[best_light]);
             self.learn_guide(&mut plan, &lights, &brightness);
         }
-        plan
+        (Self { plan, ..self }, counters)
     }
 
     fn light_only(&self) -> bool {
@@ -131,26 +117,26 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         *guide = experience.guide(guide, self.scene);
     }
 
-    /// Squares of some edge that the picture has across and down.
-    pub fn squares(&self, edge: u32) -> [u32; 2] {
-        [self.film.width, self.film.height].map(|size| size.div_ceil(edge))
+    /// Squares of the picture across and down.
+    fn squares(&self) -> [u32; 2] {
+        [self.film.width, self.film.height].map(|size| size.div_ceil(SQUARE))
     }
 
     /// The pixel of a square that the pilot looks at: another in each.
-    pub fn pilot_pixel(&self, square: u32, edge: u32) -> u32 {
-        let across = self.squares(edge)[0];
+    fn pilot_pixel(&self, square: u32) -> u32 {
+        let across = self.squares()[0];
         let random = mix(u64::from(square));
-        let x = (square % across * edge + random as u32 % edge).min(self.film.width - 1);
-        let y = (square / across * edge + (random >> 32) as u32 % edge).min(self.film.height - 1);
+        let x = (square % across * SQUARE + random as u32 % SQUARE).min(self.film.width - 1);
+        let y = (square / across * SQUARE + (random >> 32) as u32 % SQUARE).min(self.film.height - 1);
         y * self.film.width + x
     }
 
-    pub fn pilot_seed(&self) -> u64 {
+    fn pilot_seed(&self) -> u64 {
         mix(self.settings.seed ^ 0x7069_6c6f_7421)
     }
 
     fn camera_trial(&self, ways: u8) -> CameraTrial {
-        let [across, down] = self.squares(SQUARE);
+        let [across, down] = self.squares();
         let rows: Vec<(Vec<[Xyz; SAMPLES as usize]>, u64)> = (0..down)
             .into_par_iter()
             .map_init(
@@ -158,7 +144,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 |workspace, row| {
                     workspace.counters = Counters::default();
                     let squares = (0..across).map(|column| {
-                        let pixel = self.pilot_pixel(row * across + column, SQUARE);
+                        let pixel = self.pilot_pixel(row * across + column);
                         std::array::from_fn(|sample| {
                             let mut sums = PixelSums::default();
                             let branching = Branching { parting: Parting::Ways(ways), ..self.plan.camera };
@@ -206,7 +192,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
     }
 
     fn brightness(&self, camera: &[CameraTrial], light: &[LightTrial]) -> Brightness {
-        let [across, down] = self.squares(SQUARE);
+        let [across, down] = self.squares();
         let mut squares = vec![[0.0; 3]; (across * down) as usize];
         let share = 1.0 / (camera.len() as u64 * SAMPLES) as f64;
         for trial in camera {

@@ -6,7 +6,6 @@ use super::allocation::Allocation;
 use super::fork::{Branching, NEVER};
 use super::guide::Guide;
 use super::merge::Merging;
-use super::split::Behind;
 use super::techniques::Techniques;
 use super::walk::Parting;
 use crate::sampling::AliasTable;
@@ -31,8 +30,6 @@ pub struct Plan {
     pub camera: Branching,
     /// Where light paths do.
     pub light: Branching,
-    /// What is known of splits.
-    pub behind: Behind,
     /// How photons are merged, if they are.
     pub merging: Option<Merging>,
 }
@@ -42,9 +39,7 @@ pub struct Plan {
 pub struct Decisions {
     /// Lanes that go on where they part, on camera paths.
     pub camera_ways: u32,
-    /// Camera paths that go on from the first matte surface.
-    pub camera_splits: u32,
-    /// Lanes that go on where they part, on light paths.
+    /// The same on light paths.
     pub light_ways: u32,
     /// Light paths for each camera path; 0 without them.
     pub light_paths_per_camera_path: f64,
@@ -68,15 +63,14 @@ impl Plan {
         };
         Self {
             camera: match integrator {
-                Integrator::Hero => Branching { parting: Parting::Terminate, least_share: NEVER, splits: 0 },
-                _ => Branching { parting: ways(USUAL_WAYS), least_share: CAMERA_LEAST_SHARE, splits: 0 },
+                Integrator::Hero => Branching { parting: Parting::Terminate, least_share: NEVER },
+                _ => Branching { parting: ways(USUAL_WAYS), least_share: CAMERA_LEAST_SHARE },
             },
             light: match integrator {
-                Integrator::Light => Branching { parting: ways(1), least_share: NEVER, splits: 0 },
-                _ => Branching { parting: ways(USUAL_WAYS), least_share: LIGHT_LEAST_SHARE, splits: 0 },
+                Integrator::Light => Branching { parting: ways(1), least_share: NEVER },
+                _ => Branching { parting: ways(USUAL_WAYS), least_share: LIGHT_LEAST_SHARE },
             },
             techniques,
-            behind: Behind::default(),
             merging: None,
         }
     }
@@ -86,7 +80,6 @@ impl Plan {
         let ways = |parting| if let Parting::Ways(ways) = parting { u32::from(ways) } else { 1 };
         Decisions {
             camera_ways: ways(self.camera.parting),
-            camera_splits: u32::from(self.camera.splits.max(1)),
             light_ways: ways(self.light.parting),
             light_paths_per_camera_path: f64::from(self.techniques.light_paths_per_camera_path()),
             merge_passes_per_sample: if self.merging.is_some() { allocation.merged } else { 0.0 },
@@ -136,9 +129,6 @@ pub fn blind_spot(scene: &Scene, integrator: Integrator) -> Option<&'static str>
 impl fmt::Display for Decisions {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "plan: {} of {LANES} lanes go on where they part", self.camera_ways)?;
-        if self.camera_splits > 1 {
-            write!(f, "; {} paths go on from matte surfaces", self.camera_splits)?;
-        }
         if self.light_paths_per_camera_path > 0.0 {
             let ratio = self.light_paths_per_camera_path;
             write!(f, "; {ratio:.2} light paths for each camera path, {} lanes", self.light_ways)?;

@@ -277,7 +277,7 @@ mod tests {
             workspace.interiors.reset(&[]);
             let hero = (u[5] * LANES as f32) as usize;
             let ways = if treatment == Treatment::Parting { 8 } else { 1 };
-            let branching = Branching { parting: Parting::Ways(ways), least_share: NEVER, splits: 0 };
+            let branching = Branching { parting: Parting::Ways(ways), least_share: NEVER };
             let mut walk = Walk::start(scene, &mut workspace, ray, (hero, branching), (sobol, 0));
             if treatment == Treatment::Single {
                 walk.leave_to_hero();

@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn work_follows_samples() {
         let done = Work { samples: 8, light_paths: 100, merging: 1.625 };
-        let segment = Segment::new(done, 16, 10, Allocation { light: 0.33, merged: 0.25, splits: 0 });
+        let segment = Segment::new(done, 16, 10, Allocation { light: 0.33, merged: 0.25 });
         assert_eq!(segment.work(8), done);
         assert_eq!(segment.work(9), Work { samples: 9, light_paths: 103, merging: 1.875 });
         assert_eq!(segment.work(16), Work { samples: 16, light_paths: 126, merging: 3.625 });

@@ -45,10 +45,6 @@ pub struct Walk<'a> {
     pub parting: Parting,
     /// Where the path forks, see [`super::fork`].
     pub least_share: f32,
-    /// Paths that go on from the first matte surface, see [`super::split`].
-    pub splits: u8,
-    /// What was found there.
-    pub behind: FoundBehind,
     /// Scattering events so far.
     pub depth: u32,
     /// Boundaries crossed so far that did nothing.
@@ -81,32 +77,10 @@ pub struct Bundle {
     throughput: [f32; LANES],
     hero: usize,
     ways: u8,
-    least_share: f32,
     depth: u32,
     passed: u32,
     /// What is past the surface.
     interiors: Interiors,
-}
-
-/// A path at a surface, to go on from there more than once.
-#[derive(Debug, Clone, Copy)]
-pub struct Standing {
-    ray: Ray,
-    throughput: SampledSpectrum,
-    lanes: Lanes,
-    odds: SampledSpectrum,
-    depth: u32,
-    passed: u32,
-    index: u64,
-}
-
-/// What a path has found behind the surface where it split.
-#[derive(Debug, Clone, Copy)]
-pub struct FoundBehind {
-    /// Radiance, part of that of the path.
-    pub radiance: SampledSpectrum,
-    /// Rays traced there.
-    pub rays: u64,
 }
 
 /// What a dielectric surface did.
@@ -128,28 +102,12 @@ impl<'a> Walk<'a> {
         scene: &'a Scene,
         workspace: &'a mut Workspace,
         ray: Ray,
-        (hero, branching): (usize, Branching),
+        (hero, Branching { parting, least_share }): (usize, Branching),
         (sobol, index): (Sobol, u64),
     ) -> Self {
         let (throughput, odds, lanes) = (SampledSpectrum::ONE, SampledSpectrum::ONE, Lanes::Shared);
-        let Branching { parting, least_share, splits } = branching;
-        Self {
-            scene,
-            workspace,
-            ray,
-            throughput,
-            lanes,
-            hero,
-            odds,
-            parting,
-            least_share,
-            splits,
-            behind: FoundBehind { radiance: SampledSpectrum::ZERO, rays: 0 },
-            depth: 0,
-            passed: 0,
-            sobol,
-            index,
-        }
+        let (depth, passed) = (0, 0);
+        Self { scene, workspace, ray, throughput, lanes, hero, odds, parting, least_share, depth, passed, sobol, index }
     }
 
     /// The eight random numbers of the current vertex.
@@ -261,7 +219,7 @@ impl<'a> Walk<'a> {
         (bundle.directions, bundle.own_pdf) = (directions, own_pdf);
         bundle.throughput = self.throughput.lanes();
         (bundle.hero, bundle.ways) = (self.hero, ways);
-        (bundle.least_share, bundle.depth, bundle.passed) = (self.least_share, self.depth, self.passed);
+        (bundle.depth, bundle.passed) = (self.depth, self.passed);
         bundle.interiors.copy_from(interiors);
         Crossing::Parted(ways)
     }
@@ -289,7 +247,7 @@ impl<'a> Walk<'a> {
         self.ray = surface.spawn(direction);
         self.throughput = SampledSpectrum::new(bundle.throughput).only(lane) * (LANES as f32 / odds_of_any);
         (self.lanes, self.parting) = (Lanes::Bundled(lane), Parting::Ways(bundle.ways));
-        (self.least_share, self.depth, self.passed) = (bundle.least_share, bundle.depth, bundle.passed);
+        (self.depth, self.passed) = (bundle.depth, bundle.passed);
         interiors.copy_from(&bundle.interiors);
         !self.throughput.is_zero()
     }
@@ -300,33 +258,6 @@ impl<'a> Walk<'a> {
         let stride = LANES / usize::from(ways);
         let odds = self.odds.lanes();
         (0..usize::from(ways)).map(|way| odds[(self.hero + way * stride) % LANES]).sum()
-    }
-
-    /// Remembers where the path is. One such place at a time: its interiors are kept in the workspace.
-    pub fn stand<const INTERIORS: bool>(&mut self) -> Standing {
-        let &mut Self { ray, throughput, lanes, odds, depth, passed, index, .. } = self;
-        if INTERIORS {
-            let Workspace { interiors, split_interiors, .. } = &mut *self.workspace;
-            split_interiors.copy_from(interiors);
-        }
-        Standing { ray, throughput, lanes, odds, depth, passed, index }
-    }
-
-    /// Goes back there, for the `part`-th of the paths that go on, which has a point of the sequence of its own.
-    pub fn stand_again<const INTERIORS: bool>(&mut self, standing: &Standing, part: u8) {
-        let &Standing { ray, throughput, lanes, odds, depth, passed, index } = standing;
-        (self.ray, self.throughput, self.lanes, self.odds) = (ray, throughput, lanes, odds);
-        (self.depth, self.passed) = (depth, passed);
-        self.index = index * u64::from(self.splits) + u64::from(part);
-        if INTERIORS {
-            let Workspace { interiors, split_interiors, .. } = &mut *self.workspace;
-            interiors.copy_from(split_interiors);
-        }
-    }
-
-    /// Ends what began with [`Self::stand`].
-    pub fn stand_no_more(&mut self, standing: &Standing) {
-        self.index = standing.index;
     }
 
     /// To be told of every diffuse surface, before the path goes on from it: ways that a bundle took end there, but for

@@ -19,8 +19,6 @@ pub struct Workspace {
     pub interiors: Interiors,
     /// The same for a shadow ray.
     pub shadow_interiors: Interiors,
-    /// The same where the path has split.
-    pub split_interiors: Interiors,
     /// The same past the surface at hand.
     pub beyond: Interiors,
     /// Where the path's lanes have parted.
@@ -95,7 +93,6 @@ impl Workspace {
             spectra: SpectralCache::new(scene),
             interiors: Interiors::default(),
             shadow_interiors: Interiors::default(),
-            split_interiors: Interiors::default(),
             beyond: Interiors::default(),
             bundle: Bundle::default(),
             branches: Branches::default(),

@@ -133,7 +133,6 @@ fn to_json(written: &Written, rendering: &Rendering, seconds: f64, writing: Dura
         "light_paths": statistics.light_paths,
         "photon_paths": statistics.photon_paths,
         "plan": {
-            "camera_splits": decisions.camera_splits,
             "camera_ways": decisions.camera_ways,
             "light_ways": decisions.light_ways,
             "light_paths_per_camera_path": decisions.light_paths_per_camera_path,
