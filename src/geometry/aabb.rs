@@ -1,6 +1,6 @@
 //! Axis-aligned boxes.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// An axis-aligned box; empty while `min > max`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +18,11 @@ impl Aabb {
     /// The smallest box around points.
     pub fn from_points(points: impl IntoIterator<Item = Vec3>) -> Self {
         points.into_iter().fold(Self::EMPTY, Self::with_point)
+    }
+
+    /// A box around one of f64, rounded outward.
+    pub fn enclosing(min: DVec3, max: DVec3) -> Self {
+        Self { min: -round_up(-min), max: round_up(max) }
     }
 
     /// This box grown to hold a point.
@@ -45,4 +50,12 @@ impl Aabb {
         let size = (self.max - self.min).max(Vec3::ZERO);
         size.x * size.y + size.y * size.z + size.z * size.x
     }
+}
+
+fn round_up(v: DVec3) -> Vec3 {
+    let up = |x: f64| {
+        let rounded = x as f32;
+        if f64::from(rounded) < x { rounded.next_up() } else { rounded }
+    };
+    Vec3::new(up(v.x), up(v.y), up(v.z))
 }

@@ -5,6 +5,7 @@ use glam::{DAffine3, DMat3, DVec3, Vec3};
 use super::disk::{self, Disk};
 use super::implicit::Implicit;
 use super::lens::Lens;
+use super::polyhedron::Polyhedron;
 use super::sphere::{self, Sphere};
 use super::{Aabb, Ray, offset_origin};
 use crate::{Error, ErrorKind, Result};
@@ -61,6 +62,8 @@ pub(super) struct LocalHit {
 enum Placed {
     /// A sphere that is still one in the world.
     Ball(Sphere),
+    /// A convex solid with flat facets.
+    Polyhedron(Box<Polyhedron>),
     /// Anything else.
     Transformed(Box<Transformed>),
 }
@@ -89,9 +92,9 @@ enum Local {
 /// Largest condition number of a transform: beyond it f64 cannot tell where the object's surface is.
 const MAX_CONDITION: f64 = 1e12;
 /// Half the spacing of f32, relative: rounding a coordinate moves it by at most this much of itself.
-const HALF_ULP: f64 = f32::EPSILON as f64 / 2.0;
+pub(super) const HALF_ULP: f64 = f32::EPSILON as f64 / 2.0;
 /// Relative error of a few chained f64 operations.
-const F64_CHAIN: f64 = 16.0 * f64::EPSILON;
+pub(super) const F64_CHAIN: f64 = 16.0 * f64::EPSILON;
 /// Doublings of the error bound until both offset points lie on their sides.
 const MAX_DOUBLINGS: u32 = 12;
 
@@ -124,16 +127,17 @@ impl Analytic {
     pub fn bounds(&self) -> Aabb {
         let (min, max) = match &self.placed {
             Placed::Ball(ball) => (ball.center - ball.radius, ball.center + ball.radius),
+            Placed::Polyhedron(solid) => return solid.bounds(),
             Placed::Transformed(shape) => shape.local.bounds(&shape.world_from_local),
         };
         let slack = min.abs().max(max.abs()) * F64_CHAIN;
-        Aabb { min: round_down(min - slack), max: round_up(max + slack) }
+        Aabb::enclosing(min - slack, max + slack)
     }
 
     /// Whether the shape encloses a volume.
     pub fn is_closed(&self) -> bool {
         match &self.placed {
-            Placed::Ball(_) => true,
+            Placed::Ball(_) | Placed::Polyhedron(_) => true,
             Placed::Transformed(shape) => shape.local != Local::UnitDisk,
         }
     }
@@ -142,21 +146,32 @@ impl Analytic {
     pub fn contains(&self, point: DVec3) -> bool {
         match &self.placed {
             Placed::Ball(ball) => point.distance_squared(ball.center) < ball.radius * ball.radius,
+            Placed::Polyhedron(solid) => solid.contains(point),
             Placed::Transformed(shape) => shape.local.contains(shape.local_from_world.transform_point3(point)),
         }
     }
 
-    /// Whether a part of the surface may lie on the other's: balls and lenses can share a cap, other shapes can only be
-    /// the same.
+    /// Whether a curved part of the surface may lie on the other's: balls and lenses can share a cap, other shapes can only
+    /// be the same. Of flat parts, see [`Self::planes`].
     pub fn may_share_a_face(&self, other: &Self) -> bool {
         let spherical = |placed: &Placed| match placed {
             Placed::Ball(_) => true,
+            Placed::Polyhedron(_) => false,
             Placed::Transformed(shape) => matches!(shape.local, Local::Lens(_) | Local::UnitSphere),
         };
         match (&self.placed, &other.placed) {
             (Placed::Ball(a), Placed::Ball(b)) => a == b,
             (a, b) => (spherical(a) && spherical(b)) || a == b,
         }
+    }
+
+    /// Unit normals of flat facets, and the distances of their planes from the origin.
+    pub fn planes(&self) -> impl Iterator<Item = (DVec3, f64)> {
+        let facets = match &self.placed {
+            Placed::Polyhedron(solid) => Some(solid.planes()),
+            _ => None,
+        };
+        facets.into_iter().flatten()
     }
 
     /// The nearest hit with 0 < t < `t_max`. There is no smallest t: a ray that starts off the surface by as little as
@@ -166,6 +181,7 @@ impl Analytic {
         let (o, d, t_max) = (ray.origin.as_dvec3(), ray.direction.as_dvec3(), f64::from(t_max));
         match &self.placed {
             Placed::Ball(ball) => intersect_ball(ball, o, d, t_max),
+            Placed::Polyhedron(solid) => solid.intersect(o, d, t_max),
             Placed::Transformed(shape) => {
                 let (o, d) = shape.line_to_local(o, d);
                 Some(shape.hit_to_world(&shape.local.intersect(o, d, t_max)?))
@@ -179,11 +195,18 @@ impl Analytic {
         let (o, d, t_max) = (ray.origin.as_dvec3(), ray.direction.as_dvec3(), f64::from(t_max));
         match &self.placed {
             Placed::Ball(ball) => sphere::first_crossing(o - ball.center, d, ball.radius, t_max).is_some(),
+            Placed::Polyhedron(solid) => solid.hits(o, d, t_max),
             Placed::Transformed(shape) => {
                 let (o, d) = shape.line_to_local(o, d);
                 shape.local.first_crossing(o, d, t_max)
             }
         }
+    }
+}
+
+impl From<Polyhedron> for Analytic {
+    fn from(solid: Polyhedron) -> Self {
+        Self { placed: Placed::Polyhedron(Box::new(solid)) }
     }
 }
 
@@ -325,25 +348,15 @@ fn similarity(m: &DMat3) -> Option<f64> {
 }
 
 /// A bound of non-negative components in f32, up to 2⁻²² larger: cheaper than rounding up exactly.
-fn inflated(bound: DVec3) -> Vec3 {
+pub(super) fn inflated(bound: DVec3) -> Vec3 {
     (bound * (1.0 + f64::from(f32::EPSILON)) + f64::from(f32::MIN_POSITIVE)).as_vec3()
-}
-
-fn round_up(v: DVec3) -> Vec3 {
-    let up = |x: f64| {
-        let rounded = x as f32;
-        if f64::from(rounded) < x { rounded.next_up() } else { rounded }
-    };
-    Vec3::new(up(v.x), up(v.y), up(v.z))
-}
-
-fn round_down(v: DVec3) -> Vec3 {
-    -round_up(-v)
 }
 
 #[cfg(test)]
 pub(super) mod tests {
+    use super::super::Mesh;
     use super::super::implicit::{Gyroid, SmoothUnion, Superquadric, Tanglecube, Torus};
+    use super::super::solids::{BrilliantCut, TriangleSoup, brilliant, prism};
     use super::*;
 
     /// A small generator of random numbers (splitmix64).
@@ -421,7 +434,15 @@ pub(super) mod tests {
             transforms()
                 .map(|m| (format!("{name}, {}", m.matrix3.determinant()), Analytic::new(shape.clone(), m).unwrap()))
         });
-        all.collect()
+        let solids = [
+            ("brilliant", brilliant(&BrilliantCut { radius: 0.4, ..BrilliantCut::default() }).unwrap()),
+            ("prism", prism(50.0, 0.7, 0.5).unwrap()),
+        ];
+        let solids = solids.map(|(name, TriangleSoup { positions, indices })| {
+            let solid = Polyhedron::of_mesh(&Mesh { positions, indices, ..Mesh::default() }).unwrap();
+            (name.to_string(), Analytic::from(solid))
+        });
+        all.chain(solids).collect()
     }
 
     /// A ray from outside towards a random point of the box.

@@ -1,8 +1,8 @@
 //! Transparent volumes: which of them hold a point.
 
 use super::{Material, MediumId, Scene};
-use crate::geometry::{Aabb, Bvh, Primitive, Ray, TriangleHit, geometric_normal, offset_origin};
-use glam::Vec3;
+use crate::geometry::{Aabb, Analytic, Bvh, Primitive, Ray, TriangleHit, geometric_normal, offset_origin};
+use glam::{DVec3, Vec3};
 use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -101,26 +101,27 @@ impl Scene {
     }
 
     fn may_coincide(&self, a: &Solid, b: &Solid) -> bool {
-        match (&a.shape, &b.shape) {
-            (SolidShape::Triangles(a, _), SolidShape::Triangles(b, _)) => {
-                let planes = PlaneSet::new(a.clone().filter_map(|t| self.plane(t)));
-                b.clone().filter_map(|t| self.plane(t)).any(|plane| planes.contains(plane))
-            }
-            // Lenses and balls can share a cap; other surfaces only themselves.
+        let curved = match (&a.shape, &b.shape) {
             (SolidShape::Analytic(a), SolidShape::Analytic(b)) => {
                 self.analytic[*a].may_share_a_face(&self.analytic[*b])
             }
             _ => false,
-        }
+        };
+        let planes = PlaneSet(self.planes(a).map(PlaneSet::cell).collect());
+        curved || self.planes(b).any(|plane| planes.contains(plane))
     }
 
-    /// Unit normal and distance from the origin of a triangle's plane, the normal turned to one fixed side.
-    fn plane(&self, triangle: usize) -> Option<[f64; 4]> {
-        let [a, b, c] = self.triangles[triangle].map(|i| self.positions[i as usize]);
-        let n = geometric_normal(a, b, c)?;
-        let leading = n.to_array().into_iter().max_by(|x, y| x.abs().total_cmp(&y.abs()))?;
-        let n = if leading < 0.0 { -n } else { n };
-        Some([n.x, n.y, n.z, n.dot(a.as_dvec3())])
+    /// Unit normals and distances from the origin of the planes that a solid has faces in.
+    fn planes(&self, solid: &Solid) -> impl Iterator<Item = (DVec3, f64)> {
+        let (triangles, analytic) = match &solid.shape {
+            SolidShape::Triangles(range, _) => (range.clone(), None),
+            SolidShape::Analytic(index) => (0..0, Some(&self.analytic[*index])),
+        };
+        let of_triangle = |triangle: usize| {
+            let [a, b, c] = self.triangles[triangle].map(|i| self.positions[i as usize]);
+            geometric_normal(a, b, c).map(|n| (n, n.dot(a.as_dvec3())))
+        };
+        triangles.filter_map(of_triangle).chain(analytic.into_iter().flat_map(Analytic::planes))
     }
 }
 
@@ -131,16 +132,25 @@ struct PlaneSet(HashSet<[i64; 4]>);
 const PLANE_TOLERANCE: f64 = 1.0 / (1 << 16) as f64;
 
 impl PlaneSet {
-    fn new(planes: impl Iterator<Item = [f64; 4]>) -> Self {
-        Self(planes.map(|plane| plane.map(|x| (x / PLANE_TOLERANCE).floor() as i64)).collect())
+    /// In cells, the normal turned to one fixed side.
+    fn in_cells((normal, distance): (DVec3, f64)) -> [f64; 4] {
+        let [x, y, z] = normal.to_array();
+        let leading = [x, y, z].into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let side = if leading.is_some_and(|x| x < 0.0) { -1.0 } else { 1.0 };
+        [x, y, z, distance].map(|v| v * side / PLANE_TOLERANCE)
     }
 
-    fn contains(&self, plane: [f64; 4]) -> bool {
+    fn cell(plane: (DVec3, f64)) -> [i64; 4] {
+        Self::in_cells(plane).map(|x| x.floor() as i64)
+    }
+
+    fn contains(&self, plane: (DVec3, f64)) -> bool {
+        let plane = Self::in_cells(plane);
         // Half a cell to either side of each coordinate reaches every neighbour that is near.
         (0..16).any(|corner| {
             let cell = std::array::from_fn(|i| {
                 let side = if corner >> i & 1 == 1 { 0.5 } else { -0.5 };
-                (plane[i] / PLANE_TOLERANCE + side).floor() as i64
+                (plane[i] + side).floor() as i64
             });
             self.0.contains(&cell)
         })

@@ -4,8 +4,8 @@ use super::materials::Materials;
 use super::normalize::Normalization;
 use super::spectra::in_referenced_file;
 use crate::geometry::{
-    Aabb, Analytic, AnalyticShape, BrilliantCut, Disk, Implicit, Lens, Mesh, Sphere, TriangleSoup, brilliant, implicit,
-    prism,
+    Aabb, Analytic, AnalyticShape, BrilliantCut, Disk, Implicit, Lens, Mesh, Polyhedron, Sphere, TriangleSoup,
+    brilliant, implicit, prism,
 };
 use crate::io;
 use crate::math;
@@ -229,6 +229,8 @@ pub enum Source {
     Triangles(Range<u32>),
     /// A shape with its transform into the compiled scene.
     Analytic(AnalyticShape, DAffine3),
+    /// One convex solid with flat facets.
+    Polyhedron,
 }
 
 impl Geometry {
@@ -241,19 +243,19 @@ impl Geometry {
         let mut geometry = Self::default();
         for (object, placed) in description.objects.iter().zip(placed) {
             let index = geometry.objects.len() as u32;
+            let (material, two_sided) = object.material.map_or((Material::Black, false), |m| materials.materials[m]);
             let (bounds, source) = match placed {
-                Placed::Mesh(mesh) => geometry.add_mesh(&mesh, index, normalization),
+                Placed::Mesh(mesh) => {
+                    let is_glass = matches!(material, Material::Dielectric { .. }) && object.emission.is_none();
+                    geometry.add_mesh(mesh, is_glass, index, normalization)
+                }
                 Placed::Analytic(shape, transform, _) => {
                     let transform = normalization.after(transform);
                     let analytic = Analytic::new(shape.clone(), transform)
                         .map_err(|e| e.at(format!("{}.transform", object.at)))?;
-                    let bounds = analytic.bounds();
-                    geometry.analytic.push(analytic);
-                    geometry.analytic_objects.push(index);
-                    (bounds, Source::Analytic(shape, transform))
+                    (geometry.add_analytic(analytic, index), Source::Analytic(shape, transform))
                 }
             };
-            let (material, two_sided) = object.material.map_or((Material::Black, false), |m| materials.materials[m]);
             geometry.objects.push(Object { material, two_sided, light: None, bounds, coincident: false });
             geometry.sources.push(source);
         }
@@ -263,9 +265,27 @@ impl Geometry {
         Ok(geometry)
     }
 
-    fn add_mesh(&mut self, mesh: &Mesh, object: u32, normalization: &Normalization) -> (Aabb, Source) {
+    fn add_analytic(&mut self, analytic: Analytic, object: u32) -> Aabb {
+        let bounds = analytic.bounds();
+        self.analytic.push(analytic);
+        self.analytic_objects.push(object);
+        bounds
+    }
+
+    /// Convex glass is intersected as a whole.
+    fn add_mesh(
+        &mut self,
+        mut mesh: Mesh,
+        is_glass: bool,
+        object: u32,
+        normalization: &Normalization,
+    ) -> (Aabb, Source) {
+        mesh.positions.iter_mut().for_each(|p| *p = normalization.point(*p));
+        if let Some(solid) = is_glass.then(|| Polyhedron::of_mesh(&mesh)).flatten() {
+            return (self.add_analytic(solid.into(), object), Source::Polyhedron);
+        }
         let (first_vertex, first) = (self.positions.len() as u32, self.triangles.len() as u32);
-        self.positions.extend(mesh.positions.iter().map(|p| normalization.point(*p).as_vec3()));
+        self.positions.extend(mesh.positions.iter().map(|p| p.as_vec3()));
         self.triangles.extend(mesh.indices.iter().map(|t| t.map(|i| i + first_vertex)));
         self.triangle_objects.resize(self.triangles.len(), object);
         let normal = |i: usize| mesh.normals.get(i).map_or(Vec3::ZERO, |n| n.normalize_or_zero().as_vec3());
@@ -281,7 +301,7 @@ impl Geometry {
         for ((object, source), index) in self.objects.iter().zip(&self.sources).zip(0..) {
             let shape = match source {
                 Source::Triangles(range) => SolidShape::triangles(range.start as usize..range.end as usize),
-                Source::Analytic(..) => {
+                Source::Analytic(..) | Source::Polyhedron => {
                     analytic += 1;
                     SolidShape::Analytic(analytic - 1)
                 }

@@ -199,7 +199,7 @@ fn area_light(object: &ObjectDescription, source: &Source, geometry: &Geometry) 
             let normal = u.cross(v).normalize().as_vec3();
             (AreaShape::Ellipse { center, u: u.as_vec3(), v: v.as_vec3(), normal }, area as f32)
         }
-        Source::Analytic(..) => (AreaShape::Unsampled, 0.0),
+        Source::Analytic(..) | Source::Polyhedron => (AreaShape::Unsampled, 0.0),
     };
     LightKind::Area { shape, area, two_sided: object.emission_two_sided }
 }
