@@ -5,7 +5,7 @@
 
 use abbe::bsdf::{Bsdf, Conductor, Dielectric, Diffuse, Incidence, Indices, Lanes, Mirror};
 use abbe::color::{Observer, illuminant};
-use abbe::film::{Film, Filter, PixelSums, Sensor, Splat};
+use abbe::film::{CameraTile, Film, Filter, Sensor, Splat};
 use abbe::geometry::Frame;
 use abbe::optics::ior::IndexOfRefraction;
 use abbe::optics::{fresnel_conductor, refract};
@@ -145,10 +145,13 @@ fn bsdfs(criterion: &mut Criterion) {
 fn film(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("film");
     let points = points();
-    let mut pixels = vec![PixelSums::default(); 4096];
-    each(&mut group, "camera sample", &points, |u| {
-        pixels[(u[0] * 4096.0) as usize].add_sample((u[1] * 2.0) as usize, [u[2], u[3], u[4]].map(f64::from))
-    });
+    for (name, filter) in [("box", Filter::boxed(0.5)), ("Blackman-Harris", Filter::blackman_harris(1.5))] {
+        let mut tile = CameraTile::new([0, 0], [16, 16], filter.reach());
+        each(&mut group, &format!("camera sample under {name}"), &points, |u| {
+            let pixel = [u[5], u[6]].map(|u| (16.0 * u) as i32);
+            tile.add(&filter, pixel, [u[0], u[7]], (u[1] * 2.0) as usize, [u[2], u[3], u[4]].map(f64::from));
+        });
+    }
     let mut film = Film::new(64, 64, 1.0);
     let splats: Vec<Splat> = points
         .iter()

@@ -30,7 +30,7 @@ pub struct PartError {
 /// Errors of all parts.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ErrorParts {
-    /// Noise of camera samples: pixels are independent.
+    /// Noise of camera samples: pixels are independent, but for what they share by the filter.
     pub camera: PartError,
     /// Noise of light paths: their errors span pixels, so that only replicates of the whole picture are independent.
     pub light: PartError,
@@ -60,7 +60,7 @@ impl Film {
         let scales = self.relative_scales();
         let mut parts = Parts::default();
         for (pixel, scale) in scales.iter().enumerate() {
-            let camera = self.camera_variance(pixel);
+            let camera = self.camera.variance(pixel);
             for c in 0..3 {
                 let of = |variance: f64| (scale[c] * variance).min(largest) / (3 * scales.len()) as f64;
                 parts.camera += of(camera[c]);
@@ -78,13 +78,14 @@ impl Film {
         let (light, merged) = self.replicated()?;
         let scales = self.relative_scales();
         let values = (3 * scales.len()) as f64;
-        // A pixel's square error is as uncertain as its estimate, and both are about as large as the estimate.
+        // A pixel's square error is as uncertain as its estimate, and both are about as large as the estimate. Those of
+        // pixels that share samples go together.
         let (mut mean, mut squares) = (0.0, 0.0);
         for (pixel, scale) in scales.iter().enumerate() {
-            let variance = self.camera_variance(pixel);
+            let variance = self.camera.variance(pixel);
             let of_pixel = (0..3).map(|c| scale[c] * variance[c]).sum::<f64>() / values;
             mean += of_pixel;
-            squares += of_pixel * of_pixel;
+            squares += of_pixel * of_pixel * self.camera.correlation;
         }
         let freedom = if squares > 0.0 { (mean * mean / squares).max(1.0) } else { 1.0 };
         let camera = PartError { mean, deviation: (2.0 * squares).sqrt(), freedom };
@@ -104,7 +105,7 @@ impl Film {
     /// Standard error of the value of a pixel: from few replicates, so only means over pixels are worth much. The blur of
     /// merging is not in it.
     pub fn standard_error(&self, pixel: usize) -> Xyz {
-        let camera = self.camera_variance(pixel);
+        let camera = self.camera.variance(pixel);
         let (light, merged) = (self.light.used(), self.merged.used());
         let of =
             |part: &Replicates, used: &[usize], c| if used.len() > 1 { part.variance(pixel, c, used) } else { 0.0 };
@@ -117,21 +118,13 @@ impl Film {
     /// Variance of the camera part of each pixel relative to its brightness: the sum over channels.
     pub fn relative_camera_variances(&self) -> Vec<f64> {
         let scales = self.relative_scales().into_iter().enumerate();
-        scales.map(|(pixel, scale)| (0..3).map(|c| scale[c] * self.camera_variance(pixel)[c]).sum()).collect()
+        scales.map(|(pixel, scale)| (0..3).map(|c| scale[c] * self.camera.variance(pixel)[c]).sum()).collect()
     }
 
     /// The replicates of light paths and of merging that have samples; `None` if an error cannot be told from them.
     fn replicated(&self) -> Option<(Vec<usize>, Vec<usize>)> {
         let (light, merged) = (self.light.used(), self.merged.used());
-        let sampled = self.closed.is_some() || self.camera.iter().any(|p| p.count != [0; CAMERA_REPLICATES]);
-        let known = !sampled || (0..self.camera.len()).all(|pixel| self.camera_replicates(pixel).is_some());
-        (light.len() != 1 && merged.len() != 1 && known).then_some((light, merged))
-    }
-
-    /// Variance of the mean of a pixel's camera samples, from two replicates; 0 without samples.
-    fn camera_variance(&self, pixel: usize) -> Xyz {
-        let Some([a, b]) = self.camera_replicates(pixel) else { return [0.0; 3] };
-        std::array::from_fn(|c| 0.25 * (a[c] - b[c]) * (a[c] - b[c]))
+        (light.len() != 1 && merged.len() != 1 && self.camera.replicated()).then_some((light, merged))
     }
 
     /// Factors from squares of film sums to relative ones. A pixel's own value is no measure of its brightness where its
@@ -141,8 +134,8 @@ impl Film {
         let image = self.to_xyz();
         let mean = image.iter().flatten().sum::<f64>() / (3 * image.len()) as f64;
         let of_pixel = |(pixel, xyz): (usize, &Xyz)| {
-            let of_camera = self.camera_mean(pixel);
-            let [a, b] = self.camera_replicates(pixel).unwrap_or([of_camera; CAMERA_REPLICATES]);
+            let of_camera = self.camera.mean(pixel);
+            let [a, b] = self.camera.replicates(pixel).unwrap_or([of_camera; CAMERA_REPLICATES]);
             std::array::from_fn(|c| {
                 let found_twice = xyz[c] - self.scale * (of_camera[c] - a[c].min(b[c]));
                 let brightness = (xyz[c] * found_twice).max(0.0) + 0.01 * mean * mean;
@@ -218,19 +211,15 @@ mod tests {
     use crate::film::Splat;
 
     fn film_of(pixels: &[[f64; 2]]) -> Film {
-        let mut film = Film::new(pixels.len() as u32, 1, 1.0);
-        for (sums, values) in film.camera_mut().iter_mut().zip(pixels) {
-            values.iter().enumerate().for_each(|(r, v)| assert!(sums.add_sample(r, [*v; 3])));
-        }
-        film
+        crate::film::tests::film_of(&pixels.iter().map(|values| values.map(|v| [v; 3])).collect::<Vec<_>>())
     }
 
     #[test]
     fn estimate_from_replicates() {
-        let mut film = Film::new(1, 1, 1.0);
-        assert!(film.camera_mut()[0].add_sample(0, [1.0; 3]));
+        let mut film = film_of(&[[1.0, 3.0]]);
+        film.camera_mut().weigh_open_stage([1.0, 0.0], 1.0);
         assert_eq!(film.estimated_relative_mse(), None);
-        film.camera_mut()[0].add_sample(1, [3.0; 3]);
+        film.camera_mut().weigh_open_stage([1.0, 1.0], 1.0);
         // Mean 2, of which both have found 1; variance of the mean (3 − 1)² / 4 = 1, relative to 2 · 1 + 0.01 · 4.
         assert!((film.estimated_relative_mse().unwrap() - 1.0 / 2.04).abs() < 1e-12);
         assert_eq!(film.standard_error(0), [1.0; 3]);
@@ -290,26 +279,18 @@ mod tests {
         assert!((blur.mean / expected - 1.0).abs() < 1e-9, "{blur:?} {expected}");
     }
 
-    /// What pixels with different numbers of samples in two stages give: stages count by their weights alone.
+    /// Two stages count by their weights alone, whatever their numbers of samples.
     #[test]
     fn stages() {
-        let mut film = Film::new(2, 1, 1.0);
-        let add = |film: &mut Film, pixel: usize, values: [f64; 2], times: usize| {
-            (0..times).for_each(|_| {
-                (0..2).for_each(|r| assert!(film.camera_mut()[pixel].add_sample(r, [values[r]; 3])));
-            });
-        };
-        add(&mut film, 0, [1.0, 3.0], 1);
-        add(&mut film, 1, [5.0, 5.0], 1);
-        film.weigh_open_stage(2.0);
-        film.close_stage();
-        film.weigh_open_stage(6.0);
-        add(&mut film, 0, [4.0, 8.0], 10);
+        let mut film = film_of(&[[1.0, 3.0], [5.0, 5.0]]);
+        film.camera_mut().weigh_open_stage([1.0; 2], 2.0);
+        film.camera_mut().close_stage();
         assert_eq!(film.xyz(1), [5.0; 3], "no samples yet in the open stage");
-        add(&mut film, 1, [6.0, 6.0], 1);
+        (0..10).for_each(|_| crate::film::tests::add_row(&mut film, &[[[4.0; 3], [8.0; 3]], [[6.0; 3]; 2]]));
+        film.camera_mut().weigh_open_stage([10.0; 2], 6.0);
         // (2 · 2 + 6 · 6) / 8, and (2 · 5 + 6 · 6) / 8.
         assert_eq!((film.xyz(0), film.xyz(1)), ([5.0; 3], [5.75; 3]));
-        assert_eq!((film.samples(0), film.samples(1), film.camera_paths()), (22, 4, 26));
+        assert_eq!((film.camera().samples(0), film.camera_paths()), (22, 44));
         // Replicates (2 · 1 + 6 · 4) / 8 and (2 · 3 + 6 · 8) / 8.
         assert_eq!(film.standard_error(0), [0.5 * (6.75 - 3.25); 3]);
     }

@@ -1,13 +1,17 @@
 //! The film: sums of XYZ in f64, with replicates from which its own error follows. Knows colour and spectra, no scene.
 
+mod camera;
 mod error;
 mod filter;
 mod replicates;
 mod sensor;
+mod tile;
 
+pub use camera::{CameraPart, CameraSamples};
 pub use error::{ErrorParts, PartError, Parts};
 pub use filter::Filter;
 pub use sensor::Sensor;
+pub use tile::{CameraSums, CameraTile};
 
 use replicates::Replicates;
 
@@ -19,15 +23,6 @@ pub const LIGHT_REPLICATES: usize = 8;
 /// CIE XYZ; 1 everywhere is a spectral radiance of 1 W·m⁻²·sr⁻¹·nm⁻¹.
 pub type Xyz = [f64; 3];
 
-/// Sums of one pixel's camera samples.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct PixelSums {
-    /// XYZ of each replicate.
-    pub sum: [Xyz; CAMERA_REPLICATES],
-    /// Samples of each replicate.
-    pub count: [u64; CAMERA_REPLICATES],
-}
-
 /// One contribution of a light path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Splat {
@@ -37,28 +32,12 @@ pub struct Splat {
     pub xyz: Xyz,
 }
 
-/// Stages of a render whose numbers of samples differ from pixel to pixel, by what earlier stages have shown. The mean of
-/// a pixel is that of its means in all stages with weights that do not depend on what was found: so a stage that stopped
-/// early because it missed something does not pull the mean down.
-#[derive(Debug, Clone, PartialEq)]
-struct ClosedStages {
-    /// Sums over stages of weight times mean, for each replicate.
-    sums: Vec<[Xyz; CAMERA_REPLICATES]>,
-    /// Samples of each pixel.
-    counts: Vec<u64>,
-    weight: f64,
-}
-
 /// A picture in the making.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
     width: u32,
     height: u32,
-    camera: Vec<PixelSums>,
-    /// What camera samples of closed stages gave, if there are any.
-    closed: Option<ClosedStages>,
-    /// What the open stage counts in the mean over stages.
-    open_weight: f64,
+    camera: CameraPart,
     light: Replicates,
     light_paths: u64,
     merged: Replicates,
@@ -76,9 +55,7 @@ impl Film {
         Self {
             width,
             height,
-            camera: vec![PixelSums::default(); width as usize * height as usize],
-            closed: None,
-            open_weight: 0.0,
+            camera: CameraPart::new(width as usize * height as usize),
             light: Replicates::default(),
             light_paths: 0,
             merged: Replicates::default(),
@@ -88,8 +65,15 @@ impl Film {
         }
     }
 
+    /// For camera samples that count in all pixels that the filter reaches.
+    pub fn filtered(mut self, filter: &Filter) -> Self {
+        self.camera.correlation = filter.correlation();
+        self
+    }
+
     /// Memory of a film with light paths and merging, and of the XYZ picture made from it, bytes a pixel.
-    pub const BYTES_PER_PIXEL: usize = size_of::<PixelSums>() + (2 * LIGHT_REPLICATES + 2) * size_of::<Xyz>();
+    pub const BYTES_PER_PIXEL: usize =
+        size_of::<CameraSums>() + size_of::<u64>() + (2 * LIGHT_REPLICATES + 2) * size_of::<Xyz>();
 
     /// Pixels per row.
     pub fn width(&self) -> u32 {
@@ -101,15 +85,35 @@ impl Film {
         self.height
     }
 
-    /// The sums of the camera part, row by row.
-    pub fn camera_mut(&mut self) -> &mut [PixelSums] {
+    fn pixels(&self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// Camera samples taken in all.
+    pub fn camera_paths(&self) -> u64 {
+        self.camera.paths()
+    }
+
+    /// What camera samples have given.
+    pub fn camera(&self) -> &CameraPart {
+        &self.camera
+    }
+
+    /// Adds what camera samples gave in some tiles, in their order whatever the number of threads.
+    pub fn add_tiles(&mut self, tiles: &[CameraTile]) {
+        self.camera.add_tiles(self.width as usize, tiles);
+        self.non_finite_samples += tiles.iter().map(|tile| tile.non_finite).sum::<u64>();
+    }
+
+    /// What camera samples have given, to count them and to order them in stages.
+    pub fn camera_mut(&mut self) -> &mut CameraPart {
         &mut self.camera
     }
 
     /// Adds what `paths` light paths of a replicate left. Each counts `weight` in the mean over all.
     pub fn add_splats(&mut self, replicate: usize, paths: u64, weight: f64, splats: &[Splat]) {
         let weighted = splats.iter().map(|s| Splat { pixel: s.pixel, xyz: s.xyz.map(|v| v * weight) });
-        self.non_finite_samples += self.light.add(self.camera.len(), replicate, paths as f64 * weight, weighted);
+        self.non_finite_samples += self.light.add(self.pixels(), replicate, paths as f64 * weight, weighted);
         self.light_paths += paths;
     }
 
@@ -120,64 +124,7 @@ impl Film {
 
     /// Adds what a pass of photon merging in a replicate gave for some pixels.
     pub fn add_merged(&mut self, replicate: usize, pixels: impl Iterator<Item = Splat>) {
-        self.non_finite_samples += self.merged.add(self.camera.len(), replicate, 1.0, pixels);
-    }
-
-    /// Camera samples taken in all.
-    pub fn camera_paths(&self) -> u64 {
-        (0..self.camera.len()).map(|pixel| self.samples(pixel)).sum()
-    }
-
-    /// Camera samples of a pixel.
-    pub fn samples(&self, pixel: usize) -> u64 {
-        let closed = self.closed.as_ref().map_or(0, |closed| closed.counts[pixel]);
-        closed + self.camera[pixel].count.iter().sum::<u64>()
-    }
-
-    /// What the camera samples since the last stage count in the mean over stages. Without closed stages it does not matter.
-    pub fn weigh_open_stage(&mut self, weight: f64) {
-        self.open_weight = weight;
-    }
-
-    /// Ends a stage: samples from here on are another. Every pixel must have a sample in each replicate.
-    pub fn close_stage(&mut self) {
-        let pixels = self.camera.len();
-        let empty = || ClosedStages { sums: vec![Default::default(); pixels], counts: vec![0; pixels], weight: 0.0 };
-        let closed = self.closed.get_or_insert_with(empty);
-        for ((open, sums), count) in self.camera.iter_mut().zip(&mut closed.sums).zip(&mut closed.counts) {
-            for (r, sum) in sums.iter_mut().enumerate() {
-                let scale = self.open_weight / open.count[r] as f64;
-                (0..3).for_each(|c| sum[c] += scale * open.sum[r][c]);
-            }
-            *count += open.count.iter().sum::<u64>();
-            *open = PixelSums::default();
-        }
-        closed.weight += self.open_weight;
-        self.open_weight = 0.0;
-    }
-
-    /// Mean of a pixel's camera samples.
-    fn camera_mean(&self, pixel: usize) -> Xyz {
-        let PixelSums { sum, count } = self.camera[pixel];
-        let samples = count.iter().sum::<u64>() as f64;
-        let open = |c: usize| if samples > 0.0 { sum.iter().map(|s| s[c]).sum::<f64>() / samples } else { 0.0 };
-        let Some(closed) = &self.closed else { return std::array::from_fn(open) };
-        let weight = if samples > 0.0 { self.open_weight } else { 0.0 };
-        let before = |c: usize| closed.sums[pixel].iter().map(|s| s[c]).sum::<f64>() / CAMERA_REPLICATES as f64;
-        std::array::from_fn(|c| (before(c) + weight * open(c)) / (closed.weight + weight))
-    }
-
-    /// Means of a pixel's replicates; `None` while one has no samples.
-    fn camera_replicates(&self, pixel: usize) -> Option<[Xyz; CAMERA_REPLICATES]> {
-        let PixelSums { sum, count } = &self.camera[pixel];
-        let open = |r: usize, c: usize| if count[r] > 0 { sum[r][c] / count[r] as f64 } else { 0.0 };
-        let Some(closed) = &self.closed else {
-            return (!count.contains(&0)).then(|| std::array::from_fn(|r| std::array::from_fn(|c| open(r, c))));
-        };
-        Some(std::array::from_fn(|r| {
-            let weight = if count[r] > 0 { self.open_weight } else { 0.0 };
-            std::array::from_fn(|c| (closed.sums[pixel][r][c] + weight * open(r, c)) / (closed.weight + weight))
-        }))
+        self.non_finite_samples += self.merged.add(self.pixels(), replicate, 1.0, pixels);
     }
 
     /// Light paths traced in all, those of merging aside.
@@ -187,43 +134,84 @@ impl Film {
 
     /// XYZ of a pixel: the mean of its camera samples plus the means over light paths and over passes of merging.
     pub fn xyz(&self, pixel: usize) -> Xyz {
-        let camera = self.camera_mean(pixel);
+        let camera = self.camera.mean(pixel);
         std::array::from_fn(|c| self.scale * (camera[c] + self.light.mean(pixel, c) + self.merged.mean(pixel, c)))
     }
 
     /// All pixels, row by row.
     pub fn to_xyz(&self) -> Vec<Xyz> {
-        (0..self.camera.len()).map(|i| self.xyz(i)).collect()
-    }
-}
-
-impl PixelSums {
-    /// Adds a camera sample; `false` if it was not finite and has been left out (its count stays, the light is lost).
-    pub fn add_sample(&mut self, replicate: usize, xyz: Xyz) -> bool {
-        self.count[replicate] += 1;
-        let finite = xyz.iter().all(|v| v.is_finite());
-        if finite {
-            for (sum, v) in self.sum[replicate].iter_mut().zip(xyz) {
-                *sum += v;
-            }
-        }
-        finite
+        (0..self.pixels()).map(|i| self.xyz(i)).collect()
     }
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+
+    /// A film of one row with samples of its own in each pixel, one in each replicate.
+    pub fn film_of(pixels: &[CameraSums]) -> Film {
+        let mut film = Film::new(pixels.len() as u32, 1, 1.0);
+        add_row(&mut film, pixels);
+        film.camera_mut().weigh_open_stage([1.0; 2], 1.0);
+        film
+    }
+
+    /// Adds to a film of one row a sample of its own for each pixel and replicate.
+    pub fn add_row(film: &mut Film, pixels: &[CameraSums]) {
+        let mut tile = CameraTile::new([0, 0], [pixels.len() as u32, 1], 0);
+        for (x, sums) in pixels.iter().enumerate() {
+            (0..2).for_each(|r| tile.add_to_pixel([x as i32, 0], r, sums[r]));
+            film.camera_mut().count_samples(Some(x), 2);
+        }
+        film.add_tiles(&[tile]);
+    }
 
     #[test]
     fn means_of_both_parts() {
         let mut film = Film::new(2, 1, 4.0);
-        assert!(film.camera_mut()[0].add_sample(0, [1.0, 2.0, 3.0]));
-        assert!(film.camera_mut()[0].add_sample(1, [3.0, 2.0, 1.0]));
-        assert!(!film.camera_mut()[1].add_sample(0, [f64::NAN, 0.0, 0.0]));
+        add_row(&mut film, &[[[1.0, 2.0, 3.0], [3.0, 2.0, 1.0]], [[f64::NAN, 0.0, 0.0], [0.0; 3]]]);
+        film.camera_mut().weigh_open_stage([1.0; 2], 1.0);
         film.add_splats(2, 10, 0.5, &[Splat { pixel: 1, xyz: [5.0; 3] }, Splat { pixel: 0, xyz: [f64::INFINITY; 3] }]);
         assert_eq!(film.xyz(0), [8.0, 8.0, 8.0]);
         assert_eq!(film.xyz(1), [2.0; 3]);
-        assert_eq!((film.non_finite_samples, film.camera_paths(), film.light_paths()), (1, 3, 10));
+        assert_eq!((film.non_finite_samples, film.camera_paths(), film.light_paths()), (2, 4, 10));
+    }
+
+    /// Samples all over the film and as far beyond as the filter reaches: a constant stays one up to the edges, whatever the
+    /// tiles, and every pixel is what the filter makes of the samples.
+    #[test]
+    fn samples_count_in_all_pixels_that_they_reach() {
+        let (width, height, filter) = (7, 20, Filter::gaussian(1.4));
+        let reach = filter.reach() as i32;
+        let (mut film, n) = (Film::new(width, height, 1.0), 16);
+        let mut expected = vec![0.0; (width * height) as usize];
+        let light = |x: f32, y: f32| f64::from(1.0 + 0.1 * x * y);
+        let rows = [-reach..3, 3..17, 17..height as i32 + reach];
+        let tiles: Vec<CameraTile> = rows
+            .into_iter()
+            .map(|rows| {
+                let size = [width + 2 * reach as u32, rows.len() as u32];
+                let mut tile = CameraTile::new([-reach, rows.start], size, reach as u32);
+                for (y, x) in rows.flat_map(|y| (-reach..width as i32 + reach).map(move |x| (y, x))) {
+                    for i in 0..n * n {
+                        let offset = [i % n, i / n].map(|i| (i as f32 + 0.5) / n as f32);
+                        let (px, py) = (x as f32 + offset[0], y as f32 + offset[1]);
+                        tile.add(&filter, [x, y], offset, i % 2, [1.0, light(px, py), 0.0]);
+                        filter.splat([px, py], width, height, |column, row, weight| {
+                            expected[(row * width + column) as usize] += f64::from(weight) * light(px, py);
+                        });
+                    }
+                }
+                tile
+            })
+            .collect();
+        film.add_tiles(&tiles);
+        let samples = (n * n) as f64;
+        film.camera_mut().weigh_open_stage([samples / 2.0; 2], 1.0);
+        for (pixel, expected) in expected.into_iter().enumerate() {
+            let [x, y, z] = film.xyz(pixel);
+            assert!((x - 1.0).abs() < 5e-3 && z == 0.0, "{pixel}: {x}");
+            assert!((y / (expected / samples) - 1.0).abs() < 1e-5, "{pixel}: {y}");
+        }
     }
 }

@@ -36,7 +36,7 @@ pub fn encode(film: &Film, attributes: &Attributes) -> Result<(Vec<u8>, usize)> 
     let mut planes: [Vec<f32>; CHANNELS.len()] = Default::default();
     for (pixel, xyz) in film.to_xyz().into_iter().enumerate() {
         let rgb = (RgbSpace::srgb().rgb_from_xyz * DVec3::from(xyz)).to_array();
-        let samples = [film.samples(pixel) as f64];
+        let samples = [film.camera().samples(pixel) as f64];
         let error = film.standard_error(pixel);
         for (plane, value) in planes.iter_mut().zip(rgb.into_iter().chain(xyz).chain(samples).chain(error)) {
             plane.push(narrow(value));
@@ -86,14 +86,21 @@ pub fn encode_planes(planes: Vec<(&str, Vec<f32>)>, width: u32) -> Result<Vec<u8
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::film::CameraTile;
 
     #[test]
     fn what_is_written_can_be_read() {
         let attributes = Attributes { scene_hash: 0xabc, seed: 7, samples_per_pixel: 16, seconds: 1.5 };
         let mut film = Film::new(3, 2, 1.0);
-        for (i, sums) in film.camera_mut().iter_mut().enumerate() {
-            (0..2).for_each(|r| assert!(sums.add_sample(r, [i as f64, 0.5 + r as f64, 1e60])));
+        let mut tile = CameraTile::new([0, 0], [3, 2], 0);
+        for i in 0..6u32 {
+            (0..2).for_each(|r| {
+                tile.add_to_pixel([i as i32 % 3, i as i32 / 3], r, [f64::from(i), 0.5 + r as f64, 1e60]);
+            });
+            film.camera_mut().count_samples(Some(i as usize), 2);
         }
+        film.add_tiles(&[tile]);
+        film.camera_mut().weigh_open_stage([1.0; 2], 1.0);
         let (bytes, overflows) = encode(&film, &attributes).unwrap();
         assert!(overflows > 0);
         let image = read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();

@@ -1,8 +1,10 @@
 //! Adaptive sampling: where the picture is noisy pixels get more samples, where it has converged few. What a stage gives each
 //! pixel is decided by the stages before it, and what a stage counts in the mean is fixed: see
-//! [`crate::film::Film::close_stage`]. Pooling the samples that decide with those that follow would be biased.
+//! [`crate::film::CameraPart::close_stage`]. Pooling the samples that decide with those that follow would be biased.
 
+use super::schedule::Segment;
 use crate::film::Film;
+use crate::sampling::mix;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -23,6 +25,8 @@ const COST_OF_A_PATH: f64 = 1.0;
 /// What the stages of a render give each pixel.
 #[derive(Debug, Default)]
 pub struct Adaptive {
+    /// Of what is left to chance.
+    seed: u64,
     /// Samples of each pixel in earlier stages.
     before: Vec<u64>,
     /// Samples of each pixel in this stage; empty in the first, where all get the same.
@@ -33,27 +37,31 @@ pub struct Adaptive {
 
 impl Adaptive {
     /// Of a picture with so many pixels.
-    pub fn new(pixels: usize) -> Self {
-        Self { before: vec![0; pixels], counts: Vec::new(), rays: vec![0; pixels] }
+    pub fn new(pixels: usize, seed: u64) -> Self {
+        Self { seed, before: vec![0; pixels], counts: Vec::new(), rays: vec![0; pixels] }
     }
 
-    /// The samples of a pixel that belong to `taken` of the `length` average samples of a stage.
-    pub fn samples(&self, pixel: u32, taken: Range<u64>, length: u64) -> Range<u64> {
-        let pixel = pixel as usize;
-        let Some(&count) = self.counts.get(pixel) else { return taken };
-        let part = |taken: u64| self.before[pixel] + (count * taken).div_ceil(length);
-        part(taken.start)..part(taken.end)
+    /// The samples of a pixel in a round of a stage, and what each counts: as much as all stages' samples do on average. Which
+    /// share of its samples a pixel has by then is rounded by chance, so that in a stage that is broken off it is right
+    /// on average.
+    pub fn samples(&self, pixel: usize, round: &Range<u64>, stage: &Segment) -> (Range<u64>, f64) {
+        let Some(&count) = self.counts.get(pixel) else { return (round.clone(), 1.0) };
+        let length = stage.samples.end - stage.samples.start;
+        let chance = ((mix(self.seed ^ mix(stage.samples.start) ^ pixel as u64) >> 32) * length) >> 32;
+        // Both replicates go together.
+        let part = |samples: u64| self.before[pixel] + (count / 2 * stage.taken(samples) + chance) / length * 2;
+        (part(round.start)..part(round.end), length as f64 / count as f64)
     }
 
     /// Adds what a pixel has cost.
-    pub fn add_rays(&mut self, pixel: u32, rays: u64) {
-        self.rays[pixel as usize] += rays;
+    pub fn add_rays(&mut self, pixel: usize, rays: u64) {
+        self.rays[pixel] += rays;
     }
 
     /// Decides on a stage of `length` samples on average, by what is on the film. With variances V of a sample and costs c,
     /// the relMSE for a given cost is least with numbers in proportion to √(V / c).
     pub fn start_stage(&mut self, film: &Film, length: u64) {
-        self.before = (0..self.rays.len()).map(|pixel| film.samples(pixel)).collect();
+        self.before = (0..self.rays.len()).map(|pixel| film.camera().samples(pixel)).collect();
         let size = [film.width() as usize, film.height() as usize];
         let variances = film.relative_camera_variances();
         let of_a_sample = variances.iter().zip(&self.before).map(|(v, &n)| v.min(LARGEST_VARIANCE) * n as f64);
@@ -99,6 +107,8 @@ fn blurred(values: &[f64], [width, height]: [usize; 2]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::allocation::Allocation;
+    use super::super::schedule::Work;
     use super::*;
 
     #[test]
@@ -112,19 +122,32 @@ mod tests {
         assert!((cost - 7.0).abs() < 1e-12);
     }
 
+    /// All of them by the end of a stage, and of what a stage that is broken off has given as much as is due, on average.
     #[test]
-    fn every_pixel_gets_its_samples_in_whatever_passes() {
-        let adaptive = Adaptive { before: vec![8, 8], counts: vec![2, 30], rays: vec![0; 2] };
-        for (pixel, count) in [(0, 2), (1, 30)] {
+    fn every_pixel_gets_its_samples_in_whatever_rounds() {
+        let pixels = 4000;
+        let adaptive = Adaptive {
+            seed: 1,
+            before: vec![8; pixels],
+            counts: (0..pixels).map(|pixel| if pixel % 2 == 0 { 2 } else { 30 }).collect(),
+            rays: vec![0; pixels],
+        };
+        let stage = Segment::new(Work { samples: 8, ..Work::default() }, 16, 1, Allocation::START);
+        let mut taken = [0.0; 2];
+        for pixel in 0..pixels {
             let mut next = 8;
-            for taken in [0..1, 1..4, 4..8] {
-                let samples = adaptive.samples(pixel, taken, 8);
-                assert_eq!(samples.start, next);
+            for round in [8..10, 10..12, 12..14, 14..16] {
+                let (samples, weight) = adaptive.samples(pixel, &round, &stage);
+                assert_eq!((samples.start, samples.start % 2, samples.end % 2), (next, 0, 0));
                 next = samples.end;
+                if round.end <= 10 {
+                    taken[pixel % 2] += weight * (samples.end - samples.start) as f64 / (pixels / 2) as f64;
+                }
             }
-            assert_eq!(next, 8 + count);
+            assert_eq!(next - 8, adaptive.counts[pixel]);
         }
-        assert_eq!(Adaptive::new(1).samples(0, 3..5, 8), 3..5);
+        assert!((taken[0] - 2.0).abs() < 0.25 && (taken[1] - 2.0).abs() < 0.02, "{taken:?}");
+        assert_eq!(Adaptive::new(1, 1).samples(0, &(12..14), &stage), (12..14, 1.0));
     }
 
     #[test]

@@ -82,12 +82,10 @@ impl Allocation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::Splat;
+    use crate::film::{Splat, tests::film_of};
 
     fn film(light: [f64; 2]) -> Film {
-        let mut film = Film::new(1, 1, 1.0);
-        film.camera_mut()[0].add_sample(0, [0.9; 3]);
-        film.camera_mut()[0].add_sample(1, [1.1; 3]);
+        let mut film = film_of(&[[[0.9; 3], [1.1; 3]]]);
         for (replicate, value) in light.into_iter().enumerate() {
             film.add_splats(replicate, 1, 1.0, &[Splat { pixel: 0, xyz: [value; 3] }]);
         }

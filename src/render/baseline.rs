@@ -1,9 +1,10 @@
-//! What `--integrator hero` does otherwise than the rest: the wavelengths of pbrt-v4, so that every gain over it is measured
-//! with the same tree, sampler and roulette \[PBRT4\], \[Wilkie2014\].
+//! What `--integrator hero` does otherwise than the rest: the wavelengths and the samples of pbrt-v4, so that every gain over
+//! it is measured with the same tree, sampler and roulette \[PBRT4\], \[Wilkie2014\].
 //!
 //! Four wavelengths a path, drawn from one density for all scenes and offset from each other by a quarter of the unit
 //! interval, wrapped. The first is the hero. At the first surface whose index depends on the wavelength the others are given
-//! up, even if the path is reflected there, and with them their share of all light gathered before.
+//! up, even if the path is reflected there, and with them their share of all light gathered before. Samples are placed by a
+//! pixel's filter and count in that pixel alone.
 
 use super::walk::BASELINE_LANES;
 use crate::math;

@@ -27,11 +27,13 @@ pub use workspace::Counters;
 
 use crate::color::Observer;
 use crate::film::{Film, LIGHT_REPLICATES, Sensor};
-use crate::scene::{FilmSettings, RenderSettings, Scene, SceneFeatures};
+use crate::sampling::mix;
+use crate::scene::{FilmSettings, Integrator, RenderSettings, Scene, SceneFeatures};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM};
 use adaptive::Adaptive;
 use allocation::{Allocation, Spent};
 use merge::{BLUR_DECAY, MergeState};
+use passes::ROUND;
 use plan::Plan;
 use schedule::{Segment, Work, segment_end};
 use std::time::Instant;
@@ -182,9 +184,13 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
 
     fn render(mut self, mut state: RenderState, proceed: &mut dyn FnMut(Progress) -> bool) -> Rendering {
         let mut film = Film::new(self.film.width, self.film.height, self.scene.radiance_scale);
+        if self.settings.integrator != Integrator::Hero {
+            film = film.filtered(&self.film.filter);
+        }
         let pilot_rays = state.counters.rays;
         if self.settings.adaptive && !matches!(self.plan.techniques, Techniques::Light { .. }) {
-            state.adaptive = Some(Adaptive::new((self.film.width * self.film.height) as usize));
+            let pixels = (self.film.width * self.film.height) as usize;
+            state.adaptive = Some(Adaptive::new(pixels, mix(self.settings.seed)));
         }
         let mut allocation = Allocation::START;
         let mut ending = Ending::Done;
@@ -200,7 +206,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 allocation = allocation.next(&film, &state.spent);
                 state.mark_merged(&mut film);
                 if state.adaptive.is_some() {
-                    film.close_stage();
+                    film.camera_mut().close_stage();
                 }
             }
             state.profile.book(Phase::Deciding, deciding.elapsed(), 0);
@@ -265,7 +271,8 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 ending = Ending::Deadline;
                 break;
             }
-            let next = state.done.samples + samples;
+            let next = (state.done.samples + samples).next_multiple_of(ROUND).min(end);
+            let samples = next - state.done.samples;
             self.passes(film, state, next, next == end);
             let progress = Progress {
                 samples: next,
@@ -289,12 +296,12 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         ending
     }
 
-    /// Samples for which there is time until the deadline; one at least where none has been taken yet.
+    /// Samples for which there is time until the deadline; a round at least where none has been taken yet.
     fn samples_in_time(&self, state: &RenderState) -> u64 {
         let Some(deadline) = self.settings.deadline else { return u64::MAX };
         let left = deadline.saturating_duration_since(Instant::now()).as_secs_f64();
         match state.seconds_per_sample {
-            0.0 => 1,
+            0.0 => ROUND,
             seconds => (left / seconds).round() as u64,
         }
     }
@@ -311,7 +318,10 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         if camera && samples > done.samples {
             let started = Instant::now();
             let count = self.camera_pass(film, done.samples..samples, &state.segment, &mut state.adaptive);
-            film.weigh_open_stage(state.segment.taken(samples) as f64);
+            let stage = if state.adaptive.is_some() { state.segment.samples.start } else { 0 };
+            let taken = samples - stage;
+            film.camera_mut()
+                .weigh_open_stage([taken.div_ceil(2), taken / 2].map(|samples| samples as f64), taken as f64);
             state.spent.camera += state.book(Phase::Camera, started, count);
         }
         let started = Instant::now();

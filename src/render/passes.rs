@@ -9,7 +9,7 @@ use super::techniques::Techniques;
 use super::walk::{Parting, Walk};
 use super::workspace::{Counters, Workspace};
 use super::{Renderer, baseline, path};
-use crate::film::{CAMERA_REPLICATES, Film, LIGHT_REPLICATES, PixelSums, Sensor, Splat};
+use crate::film::{CAMERA_REPLICATES, CameraTile, Film, LIGHT_REPLICATES, Sensor, Splat, Xyz};
 use crate::sampling::{DIMENSIONS, Sobol, mix};
 use crate::scene::FilmSettings;
 use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
@@ -18,13 +18,18 @@ use std::ops::Range;
 
 /// Edge of a tile in pixels.
 const TILE: u32 = 16;
+/// Tiles that are worked on before they add to the film.
+const TILES_AT_ONCE: usize = 1024;
+/// Samples of a pixel that tiles take before they add to the film: passes are made of so many, so that sums do not depend on
+/// where one ends. One in each replicate.
+pub const ROUND: u64 = CAMERA_REPLICATES as u64;
 /// Light paths in a block.
 pub const BLOCK: u64 = 512;
 /// Blocks that are traced before their splats go to the film, in order.
 const BLOCKS_AT_ONCE: usize = 256;
 
 impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION, INTERIORS> {
-    /// Takes some samples of every pixel: on average those between two numbers.
+    /// Takes some samples of every pixel: on average those between two numbers, of which the first ends a round.
     pub fn camera_pass(
         &self,
         film: &mut Film,
@@ -32,81 +37,132 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         segment: &Segment,
         adaptive: &mut Option<Adaptive>,
     ) -> Counters {
-        let (width, height) = (self.film.width, self.film.height);
-        let stage = adaptive.as_ref();
-        let length = segment.samples.end - segment.samples.start;
-        let taken = segment.taken(samples.start)..segment.taken(samples.end);
-        let of_pixel =
-            |pixel: u32| stage.map_or(samples.clone(), |adaptive| adaptive.samples(pixel, taken.clone(), length));
-        // Tiles borrow their rows from the film: each works on a copy of its pixels.
-        let all = film.camera_mut();
-        let stream = (mix(self.settings.seed), self.plan.camera);
-        let results: Vec<TileResult> = tiles(self.film)
-            .into_par_iter()
-            .map_init(
-                || Workspace::new(self.scene),
-                |workspace, tile| {
-                    workspace.counters = Counters::default();
-                    let mut non_finite = 0;
-                    let pixels = tile_pixels(tile, width, height)
-                        .map(|pixel| {
-                            let mut sums = all[pixel as usize];
-                            let rays = workspace.counters.rays;
-                            for sample in of_pixel(pixel) {
-                                non_finite +=
-                                    u64::from(!self.camera_sample(workspace, pixel, sample, stream, &mut sums));
-                            }
-                            (sums, workspace.counters.rays - rays)
-                        })
-                        .collect();
-                    TileResult { pixels, counters: workspace.counters, non_finite }
-                },
-            )
-            .collect();
+        let tiles = self.camera_tiles();
         let mut counters = Counters::default();
-        for (tile, result) in results.into_iter().enumerate() {
-            for (pixel, (sums, rays)) in tile_pixels(tile as u32, width, height).zip(result.pixels) {
-                film.camera_mut()[pixel as usize] = sums;
-                if let Some(adaptive) = adaptive {
-                    adaptive.add_rays(pixel, rays);
+        for first in samples.clone().step_by(ROUND as usize) {
+            let round = first..(first + ROUND).min(samples.end);
+            for tiles in tiles.chunks(TILES_AT_ONCE) {
+                let results: Vec<TileResult> = tiles
+                    .into_par_iter()
+                    .map_init(
+                        || Workspace::new(self.scene),
+                        |workspace, tile| self.camera_tile(workspace, tile.clone(), &round, segment, adaptive.as_ref()),
+                    )
+                    .collect();
+                let (sums, squares): (Vec<CameraTile>, Vec<_>) = results
+                    .into_iter()
+                    .map(|TileResult { sums, squares, counters }| (sums, (squares, counters)))
+                    .unzip();
+                film.add_tiles(&sums);
+                for (squares, count) in squares {
+                    counters.add(count);
+                    for Square { pixel, samples, rays } in squares {
+                        film.camera_mut().count_samples(pixel, samples);
+                        if let (Some(adaptive), Some(pixel)) = (adaptive.as_mut(), pixel) {
+                            adaptive.add_rays(pixel, rays);
+                        }
+                    }
                 }
             }
-            counters.add(result.counters);
-            film.non_finite_samples += result.non_finite;
         }
         counters
     }
 
-    /// One camera path of the sequences of a seed; `false` if its radiance was not finite.
+    /// One round in a tile.
+    fn camera_tile(
+        &self,
+        workspace: &mut Workspace,
+        [rows, columns]: [Range<i32>; 2],
+        round: &Range<u64>,
+        segment: &Segment,
+        adaptive: Option<&Adaptive>,
+    ) -> TileResult {
+        workspace.counters = Counters::default();
+        let reach = self.filter_reach();
+        let size = [columns.len() as u32, rows.len() as u32];
+        let mut sums = CameraTile::new([columns.start, rows.start], size, reach);
+        let mut squares = Vec::with_capacity(columns.len() * rows.len());
+        let stream = (mix(self.settings.seed), self.plan.camera);
+        for (y, x) in rows.flat_map(|y| columns.clone().map(move |x| (y, x))) {
+            let pixel = self.on_film([x, y]);
+            let (samples, weight) = match (adaptive, pixel) {
+                (Some(adaptive), Some(pixel)) => adaptive.samples(pixel, round, segment),
+                _ => (round.clone(), 1.0),
+            };
+            let rays = workspace.counters.rays;
+            for sample in samples.clone() {
+                let CameraSample { offset, replicate, xyz } = self.camera_sample(workspace, [x, y], sample, stream);
+                let xyz = xyz.map(|v| v * weight);
+                match offset {
+                    Some(offset) => sums.add(&self.film.filter, [x, y], offset, replicate, xyz),
+                    None => sums.add_to_pixel([x, y], replicate, xyz),
+                }
+            }
+            let (samples, rays) = (samples.end - samples.start, workspace.counters.rays - rays);
+            squares.push(Square { pixel, samples, rays });
+        }
+        TileResult { sums, squares, counters: workspace.counters }
+    }
+
+    /// Pixels beyond the film in whose squares samples still count. The baseline's count in one pixel alone \[PBRT4\].
+    fn filter_reach(&self) -> u32 {
+        if self.plan.camera.parting == Parting::Terminate { 0 } else { self.film.filter.reach() }
+    }
+
+    /// Rows and columns of the tiles of the picture, with what the filter reaches beyond it.
+    fn camera_tiles(&self) -> Vec<[Range<i32>; 2]> {
+        let reach = self.filter_reach() as i32;
+        let parts = |size: u32| -> Vec<Range<i32>> {
+            let end = size as i32 + reach;
+            (-reach..end).step_by(TILE as usize).map(|first| first..(first + TILE as i32).min(end)).collect()
+        };
+        let columns = parts(self.film.width);
+        parts(self.film.height).iter().flat_map(|rows| columns.iter().map(|c| [rows.clone(), c.clone()])).collect()
+    }
+
+    /// The index of a pixel that is one of the film's.
+    fn on_film(&self, [x, y]: [i32; 2]) -> Option<usize> {
+        let (width, height) = (self.film.width as i32, self.film.height as i32);
+        ((0..width).contains(&x) && (0..height).contains(&y)).then(|| (y * width + x) as usize)
+    }
+
+    /// One camera path of the sequences of a seed, in the square of a pixel of the film or just beyond.
     pub fn camera_sample(
         &self,
         workspace: &mut Workspace,
-        pixel: u32,
+        pixel: [i32; 2],
         sample: u64,
         (seed, branching): (u64, Branching),
-        sums: &mut PixelSums,
-    ) -> bool {
+    ) -> CameraSample {
         let replicate = (sample % CAMERA_REPLICATES as u64) as usize;
         let index = sample / CAMERA_REPLICATES as u64;
-        let sobol = Sobol::new(seed ^ (u64::from(pixel) << 8 | replicate as u64));
+        let sobol = Sobol::new(seed ^ (self.square(pixel) << 8 | replicate as u64));
         let u = sobol.group(index, 0);
         let baseline = branching.parting == Parting::Terminate;
         let wavelengths = if baseline { baseline::wavelengths(u[2]) } else { self.scene.wavelengths.sample(u[2]) };
-        let mut walk = self.camera_walk(workspace, pixel, wavelengths, u, (sobol, index));
+        let offset = if baseline { self.film.filter.sample([u[0], u[1]]).map(|d| 0.5 + d) } else { [u[0], u[1]] };
+        let mut walk = self.camera_walk(workspace, (pixel, offset), wavelengths, u, (sobol, index));
         (walk.parting, walk.least_share) = (branching.parting, branching.least_share);
         if baseline {
             (walk.hero, walk.throughput) = (0, baseline::throughput());
         }
         let radiance =
             path::radiance::<DISPERSION, INTERIORS>(&mut walk, &self.plan.techniques, self.settings.max_depth);
-        sums.add_sample(replicate, self.xyz(&wavelengths, radiance))
+        CameraSample { offset: (!baseline).then_some(offset), replicate, xyz: self.xyz(&wavelengths, radiance) }
     }
 
-    /// The start of a camera path. Pixel, wavelengths and lens share the first group of random numbers.
+    /// A number for each pixel of the film, and beyond it as far as the filter reaches.
+    fn square(&self, [x, y]: [i32; 2]) -> u64 {
+        let reach = self.film.filter.reach() as i32;
+        (y + reach) as u64 * (u64::from(self.film.width) + 2 * reach as u64) + (x + reach) as u64
+    }
+
+    /// The start of a camera path at an offset from the corner of a pixel. Pixel, wavelengths and lens share the first group of
+    /// random numbers.
     pub fn camera_walk<'w>(
         &self,
         workspace: &'w mut Workspace,
-        pixel: u32,
+        ([x, y], offset): ([i32; 2], [f32; 2]),
         wavelengths: Wavelengths,
         u: [f32; DIMENSIONS],
         random: (Sobol, u64),
@@ -114,9 +170,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
     where
         'a: 'w,
     {
-        let [dx, dy] = self.film.filter.sample([u[0], u[1]]);
-        let (x, y) = (pixel % self.film.width, pixel / self.film.width);
-        let ray = self.scene.camera.ray([x as f32 + 0.5 + dx, y as f32 + 0.5 + dy], [u[3], u[4]]);
+        let ray = self.scene.camera.ray([x as f32 + offset[0], y as f32 + offset[1]], [u[3], u[4]]);
         let hero = (u[5] * LANES as f32) as usize;
         workspace.spectra.begin(wavelengths);
         if INTERIORS {
@@ -176,12 +230,28 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
     }
 }
 
+/// What a camera path has found.
+pub struct CameraSample {
+    /// Where, from the corner of its pixel; `None` where it counts in that pixel alone.
+    offset: Option<[f32; 2]>,
+    replicate: usize,
+    pub xyz: Xyz,
+}
+
 /// What was found in a tile.
 struct TileResult {
-    /// Sums of each pixel, and the rays that it has cost.
-    pixels: Vec<(PixelSums, u64)>,
+    sums: CameraTile,
+    squares: Vec<Square>,
     counters: Counters,
-    non_finite: u64,
+}
+
+/// What was done in the square of a pixel.
+struct Square {
+    /// Its index, if it is one of the film's.
+    pixel: Option<usize>,
+    samples: u64,
+    /// What the samples have cost.
+    rays: u64,
 }
 
 /// Light paths by blocks, of which the first and the last may be parts.

@@ -10,7 +10,7 @@ use super::plan::Plan;
 use super::techniques::Techniques;
 use super::walk::Parting;
 use super::workspace::{Counters, Workspace};
-use crate::film::{Filter, PixelSums, Xyz};
+use crate::film::{Filter, Xyz};
 use crate::sampling::{Sobol, mix};
 use rayon::prelude::*;
 
@@ -146,11 +146,11 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                     let squares = (0..across).map(|column| {
                         let pixel = self.pilot_pixel(row * across + column);
                         std::array::from_fn(|sample| {
-                            let mut sums = PixelSums::default();
                             let branching = Branching { parting: Parting::Ways(ways), ..self.plan.camera };
                             let stream = (self.pilot_seed(), branching);
-                            self.camera_sample(workspace, pixel, sample as u64, stream, &mut sums);
-                            std::array::from_fn(|c| sums.sum.iter().map(|s| s[c]).sum())
+                            let at = [pixel % self.film.width, pixel / self.film.width].map(|c| c as i32);
+                            let xyz = self.camera_sample(workspace, at, sample as u64, stream).xyz;
+                            if xyz.iter().all(|v| v.is_finite()) { xyz } else { Xyz::default() }
                         })
                     });
                     (squares.collect(), workspace.counters.rays)
