@@ -149,7 +149,8 @@ fn film(criterion: &mut Criterion) {
         let mut tile = CameraTile::new([0, 0], [16, 16], filter.reach());
         each(&mut group, &format!("camera sample under {name}"), &points, |u| {
             let pixel = [u[5], u[6]].map(|u| (16.0 * u) as i32);
-            tile.add(&filter, pixel, [u[0], u[7]], (u[1] * 2.0) as usize, [u[2], u[3], u[4]].map(f64::from));
+            let xyz = [u[2], u[3], u[4]].map(f64::from);
+            tile.add(&filter, (pixel, [u[0], u[7]]), (u[1] * 2.0) as usize, (1.0, xyz));
         });
     }
     let mut film = Film::new(64, 64, 1.0);

@@ -1,4 +1,8 @@
 //! The part of the picture that camera samples make, in stages.
+//!
+//! What samples count in a pixel adds up to their number on average, but not exactly, where a filter decides it. That error
+//! is known, and taken off at the brightness that the other replicate has found: as this is independent of it, the mean
+//! stays what it was, and where the picture is even there is no noise at all. A quotient of both sums would be biased.
 
 use super::{CAMERA_REPLICATES, CameraSums, CameraTile, Xyz};
 use rayon::prelude::*;
@@ -11,8 +15,8 @@ const BAND: usize = 16;
 /// early because it missed something does not pull the mean down.
 #[derive(Debug, Clone, PartialEq)]
 struct ClosedStages {
-    /// Sums over stages of weight times mean.
-    sums: Vec<CameraSums>,
+    /// Sums over stages of weight times mean, by replicate.
+    sums: Vec<[Xyz; CAMERA_REPLICATES]>,
     weight: f64,
 }
 
@@ -66,7 +70,7 @@ impl CameraPart {
                     let to = (row - first) as usize * width + columns.start as usize;
                     let added = &tile.sums[from..from + columns.len()];
                     for (sums, added) in pixels[to..to + columns.len()].iter_mut().zip(added) {
-                        (0..CAMERA_REPLICATES).for_each(|r| (0..3).for_each(|c| sums[r][c] += added[r][c]));
+                        sums.add(added);
                     }
                 }
             }
@@ -99,40 +103,57 @@ impl CameraPart {
 
     /// Ends a stage, which has samples in both replicates: samples from here on are another.
     pub fn close_stage(&mut self) {
-        let pixels = self.sums.len();
-        let empty = || ClosedStages { sums: vec![Default::default(); pixels], weight: 0.0 };
-        let closed = self.closed.get_or_insert_with(empty);
-        let scales = self.open_samples.map(|samples| self.open_weight / samples);
-        for (open, sums) in self.sums.iter_mut().zip(&mut closed.sums) {
-            for ((sum, open), scale) in sums.iter_mut().zip(open.iter()).zip(scales) {
-                (0..3).for_each(|c| sum[c] += scale * open[c]);
+        let means: Vec<_> = (0..self.sums.len()).map(|pixel| self.open_means(pixel)).collect();
+        let closed = self
+            .closed
+            .get_or_insert_with(|| ClosedStages { sums: vec![Default::default(); means.len()], weight: 0.0 });
+        for (sums, means) in closed.sums.iter_mut().zip(means) {
+            for (sum, mean) in sums.iter_mut().zip(means) {
+                (0..3).for_each(|c| sum[c] += self.open_weight * mean[c]);
             }
-            *open = CameraSums::default();
         }
         closed.weight += self.open_weight;
+        self.sums.fill(CameraSums::default());
         self.weigh_open_stage(CameraSamples::default(), 0.0);
+    }
+
+    /// Means of a pixel's replicates in the open stage; 0 without samples.
+    fn open_means(&self, pixel: usize) -> [Xyz; CAMERA_REPLICATES] {
+        let CameraSums { xyz, weights } = &self.sums[pixel];
+        let samples = self.open_samples;
+        std::array::from_fn(|r| {
+            let (n, other) = (samples[r], 1 - r);
+            if n == 0.0 {
+                return Xyz::default();
+            }
+            // Without another replicate there is only the brightness that this one has found.
+            let by = if samples[other] > 0.0 { other } else { r };
+            let brightness = |c: usize| if weights[by] > 0.0 { xyz[by][c] / weights[by] } else { 0.0 };
+            std::array::from_fn(|c| (xyz[r][c] - brightness(c) * (weights[r] - n)) / n)
+        })
     }
 
     /// Mean of a pixel's camera samples.
     pub(super) fn mean(&self, pixel: usize) -> Xyz {
-        let (sums, samples) = (&self.sums[pixel], self.open_samples.iter().sum::<f64>());
-        let open = |c: usize| if samples > 0.0 { sums.iter().map(|s| s[c]).sum::<f64>() / samples } else { 0.0 };
+        let (means, samples) = (self.open_means(pixel), self.open_samples);
+        let taken: f64 = samples.iter().sum();
+        let open = |c: usize| {
+            let sum: f64 = means.iter().zip(samples).map(|(mean, samples)| samples * mean[c]).sum();
+            if taken > 0.0 { sum / taken } else { 0.0 }
+        };
         let Some(closed) = &self.closed else { return std::array::from_fn(open) };
-        let weight = if samples > 0.0 { self.open_weight } else { 0.0 };
+        let weight = if taken > 0.0 { self.open_weight } else { 0.0 };
         let before = |c: usize| closed.sums[pixel].iter().map(|s| s[c]).sum::<f64>() / CAMERA_REPLICATES as f64;
         std::array::from_fn(|c| (before(c) + weight * open(c)) / (closed.weight + weight))
     }
 
     /// Means of a pixel's replicates; `None` while one has no samples.
-    pub(super) fn replicates(&self, pixel: usize) -> Option<CameraSums> {
-        let (sums, samples) = (&self.sums[pixel], self.open_samples);
-        let open = |r: usize, c: usize| if samples[r] > 0.0 { sums[r][c] / samples[r] } else { 0.0 };
-        let Some(closed) = &self.closed else {
-            return (!samples.contains(&0.0)).then(|| std::array::from_fn(|r| std::array::from_fn(|c| open(r, c))));
-        };
+    pub(super) fn replicates(&self, pixel: usize) -> Option<[Xyz; CAMERA_REPLICATES]> {
+        let (open, samples) = (self.open_means(pixel), self.open_samples);
+        let Some(closed) = &self.closed else { return (!samples.contains(&0.0)).then_some(open) };
         Some(std::array::from_fn(|r| {
             let weight = if samples[r] > 0.0 { self.open_weight } else { 0.0 };
-            std::array::from_fn(|c| (closed.sums[pixel][r][c] + weight * open(r, c)) / (closed.weight + weight))
+            std::array::from_fn(|c| (closed.sums[pixel][r][c] + weight * open[r][c]) / (closed.weight + weight))
         }))
     }
 

@@ -116,7 +116,7 @@ impl Filter {
 
     /// The filter along one axis, at offsets up to its radius.
     #[inline]
-    fn weight(&self, offset: f32) -> f32 {
+    pub(super) fn weight(&self, offset: f32) -> f32 {
         match &self.profile {
             None => 0.5 / self.radius,
             Some(Profile { values, .. }) => {

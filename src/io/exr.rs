@@ -95,7 +95,7 @@ mod tests {
         let mut tile = CameraTile::new([0, 0], [3, 2], 0);
         for i in 0..6u32 {
             (0..2).for_each(|r| {
-                tile.add_to_pixel([i as i32 % 3, i as i32 / 3], r, [f64::from(i), 0.5 + r as f64, 1e60]);
+                tile.add_to_pixel([i as i32 % 3, i as i32 / 3], r, (1.0, [f64::from(i), 0.5 + r as f64, 1e60]));
             });
             film.camera_mut().count_samples(Some(i as usize), 2);
         }

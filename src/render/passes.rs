@@ -92,10 +92,9 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             let rays = workspace.counters.rays;
             for sample in samples.clone() {
                 let CameraSample { offset, replicate, xyz } = self.camera_sample(workspace, [x, y], sample, stream);
-                let xyz = xyz.map(|v| v * weight);
                 match offset {
-                    Some(offset) => sums.add(&self.film.filter, [x, y], offset, replicate, xyz),
-                    None => sums.add_to_pixel([x, y], replicate, xyz),
+                    Some(offset) => sums.add(&self.film.filter, ([x, y], offset), replicate, (weight, xyz)),
+                    None => sums.add_to_pixel([x, y], replicate, (weight, xyz)),
                 }
             }
             let (samples, rays) = (samples.end - samples.start, workspace.counters.rays - rays);
