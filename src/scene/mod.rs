@@ -10,7 +10,7 @@ mod material;
 mod solid;
 
 pub use camera::{Camera, Connection};
-pub use compile::{Compiled, FilmSettings, Integrator, RenderSettings, compile};
+pub use compile::{Compiled, FilmSettings, Integrator, RenderSettings, compile, world_mesh};
 pub use features::SceneFeatures;
 pub use light::{Aim, AreaShape, Emission, EmissionStart, Exit, GuidedPair, Light, LightKind, LightSample};
 pub use material::{Material, Medium, MediumId, SpectrumId};

@@ -1,13 +1,14 @@
 //! A scene in the terms that renderers share: world space in metres, spectra as tables.
 
+use crate::geometry::Mesh;
 use crate::scene::description::{
     CameraDescription, FilmDescription, LightKind, MaterialKind, ObjectDescription, SceneDescription, ShapeDescription,
     TransformStep,
 };
-use crate::scene::{Compiled, Material, Scene, SpectrumId};
+use crate::scene::{Compiled, Material, Scene, SpectrumId, world_mesh};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, SpectrumTable};
 use crate::{Error, ErrorKind, Result, math};
-use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
+use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, Vec3};
 
 /// Everything to be written.
 pub struct Parts {
@@ -199,7 +200,7 @@ fn object(
 ) -> Result<Object> {
     let compiled = &scene.objects[index];
     let material = object.material.map(|i| &description.materials[i].1);
-    let shape = shape(description, scene, index, object, stem, meshes)?;
+    let shape = shape(scene, index, object, stem, meshes)?;
     let emission = compiled.light.map(|light| {
         let table = Table::of(table(scene, scene.lights[light as usize].spectrum), scene.radiance_scale);
         (table, object.emission_two_sided)
@@ -237,7 +238,6 @@ fn surface(scene: &Scene, material: Material, at_nm: Option<f64>, place: &str) -
 }
 
 fn shape(
-    description: &SceneDescription,
     scene: &Scene,
     index: usize,
     object: &ObjectDescription,
@@ -274,8 +274,9 @@ fn shape(
         ShapeDescription::Implicit(_) => refused("an implicit surface"),
         ShapeDescription::Lens { .. } => refused("a lens"),
         _ => {
+            let Some(mesh) = world_mesh(object)? else { return refused("a shape without triangles") };
             let file = format!("{stem}-{index}.ply");
-            let (bytes, smooth) = ply(description, scene, index);
+            let (bytes, smooth) = ply(&mesh, matches!(scene.objects[index].material, Material::Diffuse { .. }));
             meshes.push((file.clone(), bytes));
             Ok(Shape::Ply { file, smooth })
         }
@@ -299,42 +300,28 @@ fn transform(steps: &[TransformStep]) -> DAffine3 {
     })
 }
 
-/// The triangles of an object as the renderer has them, in metres, as binary PLY; and whether with vertex normals.
-fn ply(description: &SceneDescription, scene: &Scene, index: usize) -> (Vec<u8>, bool) {
-    // The centre of the compiled scene is a multiple of a millionth of its unit, so that rounding finds it exactly.
-    let grid = scene.meters_per_unit / f64::from(1 << 20);
-    let camera = scene.camera.position().as_dvec3() * scene.meters_per_unit;
-    let center = ((DVec3::from(description.camera.from) - camera) / grid).round() * grid;
-    let triangles = scene.triangles.iter().zip(&scene.triangle_objects).filter(|(_, object)| **object == index as u32);
-    let (mut positions, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
-    let mut numbers = std::collections::HashMap::new();
-    for (triangle, _) in triangles {
-        for &vertex in triangle {
-            let number = *numbers.entry(vertex).or_insert_with(|| {
-                positions
-                    .push((scene.positions[vertex as usize].as_dvec3() * scene.meters_per_unit + center).as_vec3());
-                normals.extend(scene.normals.get(vertex as usize).copied());
-                positions.len() as u32 - 1
-            });
-            indices.push(number);
-        }
-    }
-    // Specular surfaces are rendered as flat as they are; so is what has no normals of its own.
-    let diffuse = matches!(scene.objects[index].material, Material::Diffuse { .. });
-    let smooth = diffuse && normals.len() == positions.len() && normals.iter().all(|n| n.length_squared() > 0.0);
+/// Triangles in metres as binary PLY; and whether with vertex normals, which diffuse surfaces alone are rendered with.
+fn ply(mesh: &Mesh, diffuse: bool) -> (Vec<u8>, bool) {
+    let Mesh { positions, indices, normals, .. } = mesh;
+    let normals: Vec<Vec3> = normals.iter().map(|n| n.normalize_or_zero().as_vec3()).collect();
+    let smooth = diffuse && normals.len() == positions.len() && normals.iter().all(|n| *n != Vec3::ZERO);
     let normal_lines = if smooth { "property float nx\nproperty float ny\nproperty float nz\n" } else { "" };
     let mut bytes = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n\
          {normal_lines}element face {}\nproperty list uchar int vertex_indices\nend_header\n",
         positions.len(),
-        indices.len() / 3
+        indices.len()
     )
     .into_bytes();
     for (i, position) in positions.iter().enumerate() {
-        let values = position.to_array().into_iter().chain(smooth.then(|| normals[i].to_array()).into_iter().flatten());
+        let values = position
+            .as_vec3()
+            .to_array()
+            .into_iter()
+            .chain(smooth.then(|| normals[i].to_array()).into_iter().flatten());
         values.for_each(|v| bytes.extend(v.to_le_bytes()));
     }
-    for triangle in indices.chunks(3) {
+    for triangle in indices {
         bytes.push(3);
         triangle.iter().for_each(|i| bytes.extend(i.to_le_bytes()));
     }

@@ -73,6 +73,25 @@ fn mitsuba_gets_what_the_scene_says() {
     assert!(roxmltree::Document::parse(&text).is_ok());
 }
 
+/// Convex glass, which the renderer does not keep as triangles.
+#[test]
+fn glass_is_written_as_triangles() {
+    let folder = Folder::new("glass");
+    let scene = r#"{
+        "camera": { "type": "perspective", "from": [0, 0, 5], "to": [0, 0, 0] },
+        "film": { "width": 8, "height": 8 },
+        "materials": { "glass": { "type": "dielectric", "ior": 1.5 } },
+        "objects": [{ "shape": { "type": "prism", "apex_degrees": 60, "side": 1, "length": 2 }, "material": "glass",
+                      "transform": [{ "translate": [3, 0, 0] }] }],
+        "environment": { "radiance": 1 }
+    }"#;
+    folder.export(scene, Format::Mitsuba, None).unwrap();
+    let ply = crate::io::mesh::read(&folder.0.join("x-0.ply")).unwrap();
+    assert_eq!((ply.positions.len(), ply.indices.len()), (6, 8));
+    assert!(ply.is_closed() && (ply.signed_volume() / (0.75f64.sqrt() / 2.0 * 2.0) - 1.0).abs() < 1e-6);
+    assert!(ply.positions.iter().all(|p| (p.x - 3.0).abs() < 1.0), "{:?}", ply.positions);
+}
+
 #[test]
 fn pbrt_gets_what_the_scene_says() {
     let folder = Folder::new("pbrt");

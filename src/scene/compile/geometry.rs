@@ -53,6 +53,17 @@ pub fn place(description: &SceneDescription, warnings: &mut Vec<String>) -> Resu
         .collect()
 }
 
+/// The triangles of an object in world metres; `None` for a shape that is none of triangles.
+///
+/// # Errors
+/// Whatever is wrong with the shape, a file that it names, or its transform.
+pub fn world_mesh(object: &ObjectDescription) -> Result<Option<Mesh>> {
+    Ok(match place_object(object)? {
+        Placed::Mesh(mesh) => Some(mesh),
+        Placed::Analytic(..) => None,
+    })
+}
+
 fn place_object(object: &ObjectDescription) -> Result<Placed> {
     let at = format!("{}.shape", object.at);
     let here = |e: Error| if e.place.is_empty() { e.at(at.clone()) } else { e };

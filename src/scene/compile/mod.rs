@@ -14,6 +14,7 @@ use crate::geometry::Bvh;
 use crate::math;
 use crate::{Error, ErrorKind, Result};
 use geometry::Geometry;
+pub use geometry::world_mesh;
 use glam::DVec3;
 use materials::Materials;
 use normalize::Normalization;
