@@ -52,7 +52,7 @@ impl Facet {
 }
 
 impl Polyhedron {
-    /// The solid that a mesh encloses. `None` if it is not closed, not convex, inside out, or has too many facets.
+    /// The solid that a mesh encloses. `None` if it is not closed, not convex, inside out, flat, or has too many facets.
     pub fn of_mesh(mesh: &Mesh) -> Option<Self> {
         // No triangulation of the facets has more, but for one that splits them for no reason.
         if mesh.indices.len() > 4 * MOST_FACETS || !mesh.is_closed() {
@@ -65,8 +65,11 @@ impl Polyhedron {
         let radius = vertices().map(|vertex| vertex.distance(center)).fold(0.0, f64::max);
         let tolerance = radius * FLATNESS;
         let facets = facets(mesh, center, tolerance)?;
-        let convex = vertices().all(|vertex| facets.iter().all(|facet| facet.depth(vertex - center) >= -tolerance));
-        convex.then(|| Self {
+        let has_all_behind = |facet: &Facet| {
+            let depths = || vertices().map(|vertex| facet.depth(vertex - center));
+            depths().all(|depth| depth >= -tolerance) && depths().any(|depth| depth > tolerance)
+        };
+        facets.iter().all(has_all_behind).then(|| Self {
             center,
             radius,
             bounds: Aabb::enclosing(min - tolerance, max + tolerance),
@@ -300,7 +303,9 @@ mod tests {
         });
         assert!(twice.is_none(), "two solids");
         let flat = Mesh { positions: vec![DVec3::ZERO; 3], indices: vec![[0, 1, 2], [0, 2, 1]], ..Mesh::default() };
-        assert!(Polyhedron::of_mesh(&flat).is_none(), "no volume");
+        assert!(Polyhedron::of_mesh(&flat).is_none(), "no area");
+        let sheet = Mesh { positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y], ..flat };
+        assert!(sheet.is_closed() && Polyhedron::of_mesh(&sheet).is_none(), "no volume");
         assert!(Polyhedron::of_mesh(&ball(6)).is_some());
         assert!(Polyhedron::of_mesh(&ball(7)).is_none(), "too many facets");
     }
