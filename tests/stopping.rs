@@ -86,6 +86,10 @@ fn a_deadline_in_the_past_leaves_one_round() {
     compiled.render.deadline = Some(Instant::now());
     let rendering = to_the_end(&compiled);
     assert_eq!(rendering.statistics.samples, 2);
+    (compiled.render.deadline, compiled.render.samples_per_pixel) = (None, 1);
+    let rendering = to_the_end(&compiled);
+    assert_eq!(rendering.statistics.samples, 1);
+    assert_eq!(rendering.statistics.error_bound, None, "one sample tells nothing of its error");
 }
 
 /// Means of the pixels, of X + Y + Z, and at the end that of the picture.

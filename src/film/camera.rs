@@ -55,7 +55,7 @@ impl CameraPart {
     }
 
     /// Adds what camera samples gave in some tiles, in their order whatever the number of threads.
-    pub(super) fn add_tiles(&mut self, width: usize, tiles: &[CameraTile]) {
+    pub(super) fn add_tiles(&mut self, width: usize, tiles: &[&CameraTile]) {
         self.sums.par_chunks_mut(BAND * width).enumerate().for_each(|(band, pixels)| {
             let first = (band * BAND) as i32;
             let rows = first..first + (pixels.len() / width) as i32;

@@ -100,7 +100,7 @@ impl Film {
     }
 
     /// Adds what camera samples gave in some tiles, in their order whatever the number of threads.
-    pub fn add_tiles(&mut self, tiles: &[CameraTile]) {
+    pub fn add_tiles(&mut self, tiles: &[&CameraTile]) {
         self.camera.add_tiles(self.width as usize, tiles);
         self.non_finite_samples += tiles.iter().map(|tile| tile.non_finite).sum::<u64>();
     }
@@ -163,7 +163,7 @@ pub(crate) mod tests {
             (0..2).for_each(|r| tile.add_to_pixel([x as i32, 0], r, (1.0, sums[r])));
             film.camera_mut().count_samples(Some(x), 2);
         }
-        film.add_tiles(&[tile]);
+        film.add_tiles(&[&tile]);
     }
 
     /// Few samples of different weights: the mean over many films is right, where light changes within a filter too, and an even
@@ -187,7 +187,7 @@ pub(crate) mod tests {
                 tile.add(&filter, ([x, i / 3 - 1], offset), replicate, (1.0, [2.0, light(at), 0.0]));
                 exact += f64::from(filter.weight(at - 0.5)) * light(at) / f64::from(6 * runs);
             }
-            film.add_tiles(&[tile]);
+            film.add_tiles(&[&tile]);
             film.camera_mut().weigh_open_stage([1.0; 2], 1.0);
             let [even, uneven, _] = film.xyz(0);
             assert!((even - 2.0).abs() < 1e-12, "{even}");
@@ -237,7 +237,7 @@ pub(crate) mod tests {
                 tile
             })
             .collect();
-        film.add_tiles(&tiles);
+        film.add_tiles(&tiles.iter().collect::<Vec<_>>());
         let samples = (n * n) as f64;
         film.camera_mut().weigh_open_stage([samples / 2.0; 2], 1.0);
         for (pixel, expected) in expected.into_iter().enumerate() {

@@ -99,7 +99,7 @@ mod tests {
             });
             film.camera_mut().count_samples(Some(i as usize), 2);
         }
-        film.add_tiles(&[tile]);
+        film.add_tiles(&[&tile]);
         film.camera_mut().weigh_open_stage([1.0; 2], 1.0);
         let (bytes, overflows) = encode(&film, &attributes).unwrap();
         assert!(overflows > 0);

@@ -293,9 +293,8 @@ impl<const DISPERSION: bool, const INTERIORS: bool> Renderer<'_, DISPERSION, INT
     ) {
         let sobol = Sobol::new(mix(self.settings.seed) ^ (u64::from(pixel) << 8 | MERGE_STREAM));
         let u = sobol.group(pass, 0);
-        let at = [pixel % self.film.width, pixel / self.film.width].map(|c| c as i32);
-        let offset = self.film.filter.sample([u[0], u[1]]).map(|d| 0.5 + d);
-        let mut walk = self.camera_walk(workspace, (at, offset), wavelengths, u, (sobol, pass));
+        let place = (self.column_and_row(pixel), self.offset_by_filter(u));
+        let mut walk = self.camera_walk(workspace, place, wavelengths, u, (sobol, pass));
         let camera_indices = if INTERIORS { Some(path::medium_indices(&mut walk)) } else { None };
         let (techniques, max_depth) = (&self.plan.techniques, self.settings.max_depth);
         let mut visit = |walk: &mut Walk, vertex: Vertex| visit(walk, vertex, &camera_indices);

@@ -28,7 +28,7 @@ pub use workspace::Counters;
 use crate::color::Observer;
 use crate::film::{Film, LIGHT_REPLICATES, Sensor};
 use crate::sampling::mix;
-use crate::scene::{FilmSettings, Integrator, RenderSettings, Scene, SceneFeatures};
+use crate::scene::{FilmSettings, RenderSettings, Scene, SceneFeatures};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM};
 use adaptive::Adaptive;
 use allocation::{Allocation, Spent};
@@ -184,7 +184,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
 
     fn render(mut self, mut state: RenderState, proceed: &mut dyn FnMut(Progress) -> bool) -> Rendering {
         let mut film = Film::new(self.film.width, self.film.height, self.scene.radiance_scale);
-        if self.settings.integrator != Integrator::Hero {
+        if self.filter_reach() > 0 {
             film = film.filtered(&self.film.filter);
         }
         let pilot_rays = state.counters.rays;

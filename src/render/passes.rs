@@ -49,20 +49,8 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                         |workspace, tile| self.camera_tile(workspace, tile.clone(), &round, segment, adaptive.as_ref()),
                     )
                     .collect();
-                let (sums, squares): (Vec<CameraTile>, Vec<_>) = results
-                    .into_iter()
-                    .map(|TileResult { sums, squares, counters }| (sums, (squares, counters)))
-                    .unzip();
-                film.add_tiles(&sums);
-                for (squares, count) in squares {
-                    counters.add(count);
-                    for Square { pixel, samples, rays } in squares {
-                        film.camera_mut().count_samples(pixel, samples);
-                        if let (Some(adaptive), Some(pixel)) = (adaptive.as_mut(), pixel) {
-                            adaptive.add_rays(pixel, rays);
-                        }
-                    }
-                }
+                add_results(film, adaptive, &results);
+                results.iter().for_each(|result| counters.add(result.counters));
             }
         }
         counters
@@ -104,7 +92,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
     }
 
     /// Pixels beyond the film in whose squares samples still count. The baseline's count in one pixel alone \[PBRT4\].
-    fn filter_reach(&self) -> u32 {
+    pub fn filter_reach(&self) -> u32 {
         if self.plan.camera.parting == Parting::Terminate { 0 } else { self.film.filter.reach() }
     }
 
@@ -125,6 +113,16 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         ((0..width).contains(&x) && (0..height).contains(&y)).then(|| (y * width + x) as usize)
     }
 
+    /// Column and row of a pixel of the film.
+    pub fn column_and_row(&self, pixel: u32) -> [i32; 2] {
+        [pixel % self.film.width, pixel / self.film.width].map(|c| c as i32)
+    }
+
+    /// An offset from the corner of a pixel, drawn from its filter.
+    pub fn offset_by_filter(&self, u: [f32; DIMENSIONS]) -> [f32; 2] {
+        self.film.filter.sample([u[0], u[1]]).map(|d| 0.5 + d)
+    }
+
     /// One camera path of the sequences of a seed, in the square of a pixel of the film or just beyond.
     pub fn camera_sample(
         &self,
@@ -139,7 +137,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         let u = sobol.group(index, 0);
         let baseline = branching.parting == Parting::Terminate;
         let wavelengths = if baseline { baseline::wavelengths(u[2]) } else { self.scene.wavelengths.sample(u[2]) };
-        let offset = if baseline { self.film.filter.sample([u[0], u[1]]).map(|d| 0.5 + d) } else { [u[0], u[1]] };
+        let offset = if baseline { self.offset_by_filter(u) } else { [u[0], u[1]] };
         let mut walk = self.camera_walk(workspace, (pixel, offset), wavelengths, u, (sobol, index));
         (walk.parting, walk.least_share) = (branching.parting, branching.least_share);
         if baseline {
@@ -251,6 +249,17 @@ struct Square {
     samples: u64,
     /// What the samples have cost.
     rays: u64,
+}
+
+/// Adds what was found in some tiles to the film, and what it has cost to what adaptive sampling knows.
+fn add_results(film: &mut Film, adaptive: &mut Option<Adaptive>, results: &[TileResult]) {
+    film.add_tiles(&results.iter().map(|result| &result.sums).collect::<Vec<_>>());
+    for &Square { pixel, samples, rays } in results.iter().flat_map(|result| &result.squares) {
+        film.camera_mut().count_samples(pixel, samples);
+        if let (Some(adaptive), Some(pixel)) = (adaptive.as_mut(), pixel) {
+            adaptive.add_rays(pixel, rays);
+        }
+    }
 }
 
 /// Light paths by blocks, of which the first and the last may be parts.

@@ -148,7 +148,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                         std::array::from_fn(|sample| {
                             let branching = Branching { parting: Parting::Ways(ways), ..self.plan.camera };
                             let stream = (self.pilot_seed(), branching);
-                            let at = [pixel % self.film.width, pixel / self.film.width].map(|c| c as i32);
+                            let at = self.column_and_row(pixel);
                             let xyz = self.camera_sample(workspace, at, sample as u64, stream).xyz;
                             if xyz.iter().all(|v| v.is_finite()) { xyz } else { Xyz::default() }
                         })
