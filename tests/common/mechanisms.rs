@@ -4,13 +4,10 @@
 use std::path::{Path, PathBuf};
 
 use abbe::film::Film;
-use abbe::render::{Progress, Statistics, render};
+use abbe::render::{Progress, Statistics, render, render_with_everything};
 use abbe::scene::description::parse_str;
-use abbe::scene::{Compiled, SceneFeatures, compile};
+use abbe::scene::{Compiled, compile};
 use serde_json::{Value, json};
-
-/// No mechanism beyond those that the scene needs.
-pub const NEEDED: SceneFeatures = SceneFeatures { dispersion: false, interiors: false };
 
 /// A folder in which [`everything`] finds its mesh; removed at the end.
 pub struct SceneFolder(PathBuf);
@@ -30,7 +27,7 @@ impl SceneFolder {
 
     /// Renders a scene with what it needs.
     pub fn film(&self, scene: &Value) -> Film {
-        render_all(&self.compile(scene), NEEDED).0
+        render_all(&self.compile(scene)).0
     }
 
     #[allow(dead_code, reason = "not every test that uses this module writes files")]
@@ -45,9 +42,18 @@ impl Drop for SceneFolder {
     }
 }
 
-pub fn render_all(compiled: &Compiled, features: SceneFeatures) -> (Film, Statistics) {
+/// Renders with the mechanisms that the scene needs.
+pub fn render_all(compiled: &Compiled) -> (Film, Statistics) {
     let proceed = &mut |_: Progress| true;
-    let rendering = render(&compiled.scene, &compiled.render, &compiled.film, features, proceed);
+    let rendering = render(&compiled.scene, &compiled.render, &compiled.film, proceed);
+    (rendering.film, rendering.statistics)
+}
+
+/// Renders with all mechanisms, needed or not.
+#[allow(dead_code, reason = "not every test that uses this module forces mechanisms")]
+pub fn render_forced(compiled: &Compiled) -> (Film, Statistics) {
+    let proceed = &mut |_: Progress| true;
+    let rendering = render_with_everything(&compiled.scene, &compiled.render, &compiled.film, proceed);
     (rendering.film, rendering.statistics)
 }
 

@@ -8,7 +8,7 @@ use super::process;
 use crate::film::Film;
 use crate::render::{Progress, blind_spot, render};
 use crate::scene::description::{self, Integrator, SceneDescription};
-use crate::scene::{Compiled, SceneFeatures, compile};
+use crate::scene::{Compiled, compile};
 use crate::{Error, ErrorKind, Result};
 use progress::ProgressDisplay;
 use std::path::{Path, PathBuf};
@@ -111,8 +111,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let interrupted = watch_for_interrupts()?;
     let bar = ProgressDisplay::new(args.quiet, &compiled.render, started);
     let rendering = pool.install(|| {
-        let none = SceneFeatures { dispersion: false, interiors: false };
-        render(&compiled.scene, &compiled.render, &compiled.film, none, &mut |progress: Progress| {
+        render(&compiled.scene, &compiled.render, &compiled.film, &mut |progress: Progress| {
             bar.show(&progress);
             !interrupted.load(Ordering::Relaxed)
         })
