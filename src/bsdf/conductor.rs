@@ -20,7 +20,7 @@ pub struct Conductor {
 
 impl Conductor {
     /// The mirror direction, weighted lane by lane.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, frame: &Frame, wo: Vec3) -> Option<BsdfSample> {
         let cos_theta = frame.geometric.dot(wo.as_dvec3().normalize()).abs();
         Some(BsdfSample::mirrored(mirror_direction(frame, wo), self.reflectance(cos_theta)))

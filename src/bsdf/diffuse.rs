@@ -25,7 +25,7 @@ impl Diffuse {
     }
 
     /// Draws in proportion to cos θ about the shading normal.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, frame: &Frame, wo: Vec3, u: [f32; 2]) -> Option<BsdfSample> {
         let wi = frame.world_from_local(cosine_hemisphere(u));
         let pdf = frame.cos_shading(wi) * FRAC_1_PI;

@@ -15,7 +15,7 @@ pub struct Mirror {
 
 impl Mirror {
     /// The mirror direction.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, frame: &Frame, wo: Vec3) -> Option<BsdfSample> {
         Some(BsdfSample::mirrored(mirror_direction(frame, wo), self.reflectance))
     }

@@ -116,14 +116,14 @@ pub struct Evaluation {
 
 impl BsdfSample {
     /// A direction of reflection that was drawn with a density in solid angle.
-    #[inline]
+    #[inline(always)]
     pub fn reflected(wi: Vec3, weight: SampledSpectrum, pdf: f32) -> Self {
         let (wi, pdf) = (Outgoing::Shared(wi), Density::Shared(pdf));
         Self { wi, weight, pdf, crosses: false, odds: None, aside: None }
     }
 
     /// The only direction of reflection.
-    #[inline]
+    #[inline(always)]
     pub fn mirrored(wi: Vec3, weight: SampledSpectrum) -> Self {
         Self { wi: Outgoing::Shared(wi), weight, pdf: Density::Delta, crosses: false, odds: None, aside: None }
     }
@@ -166,7 +166,7 @@ impl Bsdf {
 
     /// Draws a direction by two random numbers, and what kind of scattering takes place by a third, for the lanes that the
     /// path carries. `None` if the path ends.
-    #[inline]
+    #[inline(always)]
     pub fn sample(
         &self,
         frame: &Frame,

@@ -5,6 +5,7 @@ mod report;
 mod write;
 
 use super::process;
+use crate::color::Observer;
 use crate::film::Film;
 use crate::render::{Progress, blind_spot, render};
 use crate::scene::description::{self, Integrator, SceneDescription};
@@ -41,6 +42,9 @@ pub struct RenderArgs {
     /// auto, path, light, merge or hero
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<String>,
+    /// Observer whose XYZ is recorded: 1931-2, 1964-10, 2015-2 or 2015-10
+    #[arg(long, value_name = "NAME")]
+    pub observer: Option<String>,
     /// Exposure of PNGs in stops, or auto
     #[arg(long, value_name = "EV", allow_negative_numbers = true)]
     pub exposure: Option<String>,
@@ -229,6 +233,9 @@ fn override_settings(description: &mut SceneDescription, args: &RenderArgs) -> R
     }
     if let Some(name) = &args.tonemap {
         description.develop.tonemap = named("--tonemap", name, &TONEMAPS)?;
+    }
+    if let Some(name) = &args.observer {
+        description.film.observer = Observer::by_name(name).map_err(|e| e.at("--observer"))?.name().to_owned();
     }
     if let Some(text) = &args.exposure {
         description.develop.exposure_ev = match text.as_str() {

@@ -179,8 +179,9 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
     ) {
         let sobol = Stream::Eye { pixel }.sequence(render_seed(self.settings.seed));
         let place = Place { sobol, index: pass };
-        let (at, offset) = (self.column_and_row(pixel), self.offset_by_filter(sobol.group(pass, 0)));
-        let mut walk = self.camera_walk(workspace, at, offset, wavelengths, self.plan.camera, place);
+        let u = sobol.group(pass, 0);
+        let (at, offset) = (self.column_and_row(pixel), self.offset_by_filter(u));
+        let mut walk = self.camera_walk(workspace, at, offset, wavelengths, self.plan.camera, place, u);
         let camera_indices = if INTERIORS { Some(walk.medium_indices()) } else { None };
         let (techniques, max_depth) = (&self.plan.techniques, self.settings.max_depth);
         let mut visit = |walk: &mut Walk, vertex: &Vertex| visit(walk, vertex, &camera_indices);

@@ -140,7 +140,7 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
         let baseline = branching.parting == Parting::Terminate;
         let wavelengths = if baseline { baseline::wavelengths(u[2]) } else { self.scene.wavelengths.sample(u[2]) };
         let offset = if baseline { self.offset_by_filter(u) } else { [u[0], u[1]] };
-        let mut walk = self.camera_walk(workspace, pixel, offset, wavelengths, branching, place);
+        let mut walk = self.camera_walk(workspace, pixel, offset, wavelengths, branching, place, u);
         if baseline {
             (walk.carried.hero, walk.carried.throughput) = (0, baseline::throughput());
         }
@@ -164,11 +164,11 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
         wavelengths: Wavelengths,
         branching: Branching,
         place: Place,
+        u: [f32; DIMENSIONS],
     ) -> Walk<'w>
     where
         'a: 'w,
     {
-        let u = place.sobol.group(place.index, 0);
         let ray = self.scene.camera.ray([x as f32 + offset[0], y as f32 + offset[1]], [u[3], u[4]]);
         let hero = (u[5] * LANES as f32) as usize;
         workspace.spectra.begin(wavelengths);
@@ -184,7 +184,7 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
 
     /// XYZ of what a path has found.
     pub fn xyz(&self, wavelengths: &Wavelengths, radiance: SampledSpectrum) -> [f64; 3] {
-        if radiance.is_zero() { [0.0; 3] } else { Sensor::xyz(&self.sensor.weights(wavelengths), radiance) }
+        if radiance.is_zero() { [0.0; 3] } else { Sensor::xyz(&self.film.sensor.weights(wavelengths), radiance) }
     }
 
     /// How light paths are traced, by the plan.
@@ -221,7 +221,7 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
         let stream = Stream::Light { replicate: replicate_of(&paths) as u8 };
         let sobol = stream.sequence(render_seed(self.settings.seed));
         let tracer = self.light_tracer();
-        let mut splatter = Splatter::new(&self.sensor, &self.film.filter, &self.plan.techniques);
+        let mut splatter = Splatter::new(&self.film.sensor, &self.film.filter, &self.plan.techniques);
         let before = paths.start / BLOCK / LIGHT_REPLICATES as u64 * BLOCK;
         for path in paths {
             let place = Place { sobol, index: before + path % BLOCK };

@@ -166,7 +166,7 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
                     workspace.counters = Counters::default();
                     let branching = Branching { parting: Parting::Ways(ways), ..self.plan.light };
                     let tracer = LightTracer { branching, ..self.light_tracer() };
-                    let mut splatter = Splatter::new(&self.sensor, &filter, &self.plan.techniques);
+                    let mut splatter = Splatter::new(&self.film.sensor, &filter, &self.plan.techniques);
                     let paths = block(index)
                         .filter_map(|index| {
                             splatter.start = None;

@@ -1,10 +1,7 @@
 //! What stays the same during a render: the scene, the settings, the sensor and the plan.
 
 use super::plan::Plan;
-use crate::color::Observer;
-use crate::film::Sensor;
 use crate::scene::{FilmSettings, MediumId, RenderSettings, Scene};
-use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM};
 
 /// A render's givens and its plan. `INTERIORS` tells whether paths keep what they are inside of.
 pub struct Renderer<'a, const INTERIORS: bool> {
@@ -14,8 +11,6 @@ pub struct Renderer<'a, const INTERIORS: bool> {
     pub settings: &'a RenderSettings,
     /// What the film is like.
     pub film: &'a FilmSettings,
-    /// What the film records of radiance.
-    pub sensor: Sensor,
     /// What has been decided.
     pub plan: Plan,
     /// What holds the camera, if that is the same for all its rays.
@@ -33,14 +28,6 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
         } else {
             None
         };
-        Self { scene, settings, film, sensor: standard_sensor(), plan, camera_interiors }
+        Self { scene, settings, film, plan, camera_interiors }
     }
-}
-
-/// The CIE 1931 observer.
-fn standard_sensor() -> Sensor {
-    let observer = Observer::cie_1931_2deg();
-    let matching: Vec<[f64; 3]> =
-        (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(|l| observer.eval(f64::from(l)).to_array()).collect();
-    Sensor::new(LAMBDA_MIN_NM, &matching)
 }

@@ -45,6 +45,7 @@ impl Walk<'_> {
     }
 
     /// Evaluates an opaque material at the path's wavelengths; `None` if it is black.
+    #[inline(always)]
     fn opaque<const INTERIORS: bool>(&mut self, material: Material) -> Option<Bsdf> {
         let scene = self.scene;
         let spectra = &mut self.workspace.spectra;

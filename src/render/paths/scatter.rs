@@ -26,10 +26,9 @@ impl Walk<'_> {
                 frame.without_shading()
             }
         };
-        let Some(sample) = bsdf.sample(&frame, wo, &self.carried, numbers.direction, numbers.choice) else {
-            return Scattering::Ended;
-        };
-        if let Some(aside) = sample.aside {
+        let sample = bsdf.sample(&frame, wo, &self.carried, numbers.direction, numbers.choice);
+        let Some(sample) = &sample else { return Scattering::Ended };
+        if let Some(aside) = &sample.aside {
             self.put_aside(surface.spawn(aside.wi), aside.weight);
         }
         if sample.crosses {
@@ -40,14 +39,14 @@ impl Walk<'_> {
         }
         self.carried.throughput *= sample.weight;
         self.depth += 1;
-        match sample.wi {
+        match &sample.wi {
             Outgoing::Shared(wi) => {
-                self.ray = surface.spawn(wi);
+                self.ray = surface.spawn(*wi);
                 Scattering::Along(sample.pdf.shared())
             }
             Outgoing::PerLane(directions) => {
                 let own_pdf = if let Density::PerLane(own_pdf) = sample.pdf { Some(own_pdf) } else { None };
-                self.part(surface, &directions, own_pdf)
+                self.part(surface, directions, own_pdf)
             }
         }
     }

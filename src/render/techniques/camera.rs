@@ -74,7 +74,8 @@ fn follow<const INTERIORS: bool>(
 
         // The next vertex.
         let lanes = walk.carried.lanes;
-        let vertex = match walk.encounter::<INTERIORS>(&surface) {
+        let encounter = walk.encounter::<INTERIORS>(&surface);
+        let vertex = match &encounter {
             Encounter::Vertex(vertex) => vertex,
             Encounter::Passed => continue,
             Encounter::Absorbed => return radiance,
@@ -85,9 +86,9 @@ fn follow<const INTERIORS: bool>(
         // Light that arrives there directly.
         let before = past.seen;
         if !vertex.bsdf.is_specular() {
-            past.seen = seen_with(before, walk, &vertex);
+            past.seen = seen_with(before, walk, vertex);
             let numbers = connection.unwrap_or(numbers.connection);
-            radiance += direct_light::<INTERIORS>(walk, context, before, &vertex, numbers);
+            radiance += direct_light::<INTERIORS>(walk, context, before, vertex, numbers);
             if !vertex.bsdf.is_rough() && !walk.carried.end_bundle() {
                 return radiance;
             }
@@ -100,11 +101,11 @@ fn follow<const INTERIORS: bool>(
             let Some(pdf) = pdf else { return Past { origin: Origin::Delta, ..past } };
             // The first rough surface seen is known by how likely the path leaves it as it does.
             let first = vertex.bsdf.is_rough() && matches!(before, Seen::Nothing);
-            let seen = if first { seen_rough(walk, context.techniques, &vertex, depth) } else { past.seen };
+            let seen = if first { seen_rough(walk, context.techniques, vertex, depth) } else { past.seen };
             Past { origin: Origin::Scattered { from: surface.point, pdf, glossy }, seen }
         };
         let next_connection = Some(numbers.next_connection);
-        match walk.scatter(&vertex, &numbers) {
+        match walk.scatter(vertex, &numbers) {
             Scattering::Ended => return radiance,
             Scattering::Along(pdf) => past = onward(walk, pdf),
             Scattering::Parted => {

@@ -137,7 +137,8 @@ impl LightTracer<'_> {
         while walk.depth < self.max_depth {
             // The next vertex.
             let Some(surface) = walk.advance::<INTERIORS>() else { return };
-            let vertex = match walk.encounter::<INTERIORS>(&surface) {
+            let encounter = walk.encounter::<INTERIORS>(&surface);
+            let vertex = match &encounter {
                 Encounter::Vertex(vertex) => vertex,
                 Encounter::Passed => continue,
                 Encounter::Absorbed => return,
@@ -146,11 +147,11 @@ impl LightTracer<'_> {
 
             // Light that arrives there.
             if !vertex.bsdf.is_specular() {
-                let arrival = Arrival { first, vertex: &vertex, u: numbers.connection };
+                let arrival = Arrival { first, vertex, u: numbers.connection };
                 if self.owns(start, &arrival) {
                     collector.arrive::<INTERIORS>(walk, start, arrival);
                 }
-                first = first.then(&vertex);
+                first = first.then(vertex);
                 // What is lit directly belongs to camera paths, and all that follows from it.
                 let local = self.scene.lights[start.light as usize].is_local();
                 if self.caustics_only && first == First::Diffuse && !local {
@@ -162,7 +163,7 @@ impl LightTracer<'_> {
             }
 
             // The next ray.
-            let scattering = walk.scatter(&vertex, &numbers);
+            let scattering = walk.scatter(vertex, &numbers);
             if first == First::Nothing {
                 first = First::Specular;
             }

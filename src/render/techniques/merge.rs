@@ -66,19 +66,20 @@ pub fn follow_specular<const INTERIORS: bool>(
         if walk.depth >= max_depth {
             return;
         }
-        let vertex = match walk.encounter::<INTERIORS>(&surface) {
+        let encounter = walk.encounter::<INTERIORS>(&surface);
+        let vertex = match &encounter {
             Encounter::Vertex(vertex) => vertex,
             Encounter::Passed => continue,
             Encounter::Absorbed => return,
         };
         if !vertex.bsdf.is_specular() {
             if walk.depth > 0 && (!vertex.bsdf.is_rough() || techniques.merges_on_rough(walk.scene)) {
-                visit(walk, &vertex);
+                visit(walk, vertex);
             }
             return;
         }
         let numbers = walk.numbers();
-        match walk.scatter(&vertex, &numbers) {
+        match walk.scatter(vertex, &numbers) {
             Scattering::Ended => return,
             Scattering::Along(_) => {}
             Scattering::Parted => {

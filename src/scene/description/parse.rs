@@ -137,7 +137,8 @@ fn decode_film(json: &Json, path: &Path) -> Result<FilmDescription> {
         "blackman-harris" => FilterKind::BlackmanHarris,
         _ => FilterKind::Box,
     };
-    Ok(FilmDescription { width, height, filter: kind, filter_radius: filter.number("radius") })
+    let observer = fields.text("observer");
+    Ok(FilmDescription { width, height, filter: kind, filter_radius: filter.number("radius"), observer })
 }
 
 fn decode_render(json: &Json, path: &Path) -> RenderDescription {

@@ -71,6 +71,8 @@ pub struct FilmDescription {
     pub filter: FilterKind,
     /// Filter radius, pixels.
     pub filter_radius: f64,
+    /// Name of the observer whose XYZ is recorded.
+    pub observer: String,
 }
 
 /// Reconstruction filters.

@@ -75,7 +75,7 @@ static PERSPECTIVE: Table = table(
 );
 
 /// The film.
-static FILM_FIELDS: [Field; 3] = [
+static FILM_FIELDS: [Field; 4] = [
     required("width", Kind::Integer(Range::from_to(1.0, MAX_SIDE)), "Pixels in a row."),
     required("height", Kind::Integer(Range::from_to(1.0, MAX_SIDE)), "Rows; width × height is at most 2^32."),
     default(
@@ -84,7 +84,24 @@ static FILM_FIELDS: [Field; 3] = [
         "{\"type\": \"box\"}",
         "Reconstruction filter; a box of 0.5 pixel by default.",
     ),
+    default(
+        "observer",
+        Kind::Choice(&OBSERVER),
+        "\"1931-2\"",
+        "Whose XYZ the film records, and by whose eyes wavelengths are chosen.",
+    ),
 ];
+/// Standard observers.
+static OBSERVER: Choice = Choice {
+    what: "an observer",
+    names: &[
+        ("1931-2", "CIE 1931, 2 degrees."),
+        ("1964-10", "CIE 1964, 10 degrees."),
+        ("2015-2", "CIE 2015, 2 degrees, from cone fundamentals."),
+        ("2015-10", "CIE 2015, 10 degrees, from cone fundamentals."),
+    ],
+    later: &[],
+};
 /// Picture size and filter.
 pub static FILM: Table = table("a film", "Picture size and reconstruction filter.", &FILM_FIELDS);
 
