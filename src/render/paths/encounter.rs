@@ -13,14 +13,11 @@ const MAX_PASSED: u32 = 1 << 20;
 
 impl Walk<'_> {
     /// Meets the surface at the end of the ray. Boundaries that are optically absent are passed.
-    #[inline]
+    #[inline(always)]
     pub fn encounter<'s, const INTERIORS: bool>(&mut self, surface: &'s Surface) -> Encounter<'s> {
         let object = &self.scene.objects[surface.object as usize];
         let wo = -self.ray.direction;
-        let vertex = |bsdf, frame, entered| {
-            let focuses = object.material.focuses();
-            Encounter::Vertex(Vertex { surface, bsdf, frame, wo, focuses, entered })
-        };
+        let focuses = object.material.focuses();
         if let Some(medium) = object.material.medium() {
             let (boundary, entered) = self.boundary(surface, medium);
             let Some(boundary) = boundary else { return self.pass(surface, entered) };
@@ -28,18 +25,23 @@ impl Walk<'_> {
                 self.carried.leave_to_hero();
             }
             let frame = turned(surface, surface.geometric.dot(self.ray.direction.as_dvec3()) >= 0.0);
-            let bsdf = match object.material.alpha() {
-                0.0 => Bsdf::Dielectric(boundary),
-                alpha => self.rough_dielectric(boundary, Ggx::new(alpha), &frame, wo),
-            };
-            return vertex(bsdf, frame, entered);
+            let alpha = object.material.alpha();
+            if alpha == 0.0 {
+                let bsdf = Bsdf::Dielectric(boundary);
+                return Encounter::Vertex(Vertex { surface, bsdf, frame, wo, focuses, entered });
+            }
+            let bsdf = self.rough_dielectric(boundary, Ggx::new(alpha), &frame, wo);
+            return Encounter::Vertex(Vertex { surface, bsdf, frame, wo, focuses, entered });
         }
         let back = surface.geometric.as_vec3().dot(self.ray.direction) > 0.0;
         if back && !object.two_sided {
             return Encounter::Absorbed;
         }
         match self.opaque::<INTERIORS>(object.material) {
-            Some(bsdf) => vertex(bsdf, turned(surface, back), true),
+            Some(bsdf) => {
+                let frame = turned(surface, back);
+                Encounter::Vertex(Vertex { surface, bsdf, frame, wo, focuses, entered: true })
+            }
             None => Encounter::Absorbed,
         }
     }
@@ -77,6 +79,7 @@ impl Walk<'_> {
         }
     }
 
+    #[inline(never)]
     fn rough_dielectric(&self, boundary: Dielectric, ggx: Ggx, frame: &Frame, wo: Vec3) -> Bsdf {
         let carried = &self.carried;
         let may_part = carried.lanes == Lanes::Shared && carried.parting.keeps_several();
@@ -88,7 +91,8 @@ impl Walk<'_> {
     /// Returns the boundary at the surface of a transparent object; `None` if it is optically absent: the volume on the
     /// other side is the same, or hidden by one of higher priority. The workspace's `beyond` is what is past it then. The
     /// second value tells whether that is known, see [`super::interiors::Interiors::set_past`].
-    pub(super) fn boundary(&mut self, surface: &Surface, medium: MediumId) -> (Option<Dielectric>, bool) {
+    #[inline(always)]
+    fn boundary(&mut self, surface: &Surface, medium: MediumId) -> (Option<Dielectric>, bool) {
         let Workspace { spectra, interiors, beyond, .. } = &mut *self.workspace;
         let entered = beyond.set_past(interiors, self.scene, surface, medium, self.ray.direction);
         let (from, to) = (interiors.medium(self.scene), beyond.medium(self.scene));
