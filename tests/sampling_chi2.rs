@@ -11,7 +11,7 @@ use abbe::math;
 use abbe::sampling::{
     AliasTable, PiecewiseLinearDensity, concentric_disk, cosine_hemisphere, mix, uniform_cone, uniform_sphere,
 };
-use abbe::scene::{Aim, AreaShape, Light, LightKind, Scene};
+use abbe::scene::{Aim, AreaLight, AreaShape, Light, LightKind, Scene};
 use abbe::spectrum::{SampledSpectrum, WavelengthDensity};
 use common::{chi2_sigmas, compile_json};
 use glam::{DVec3, Vec3};
@@ -180,7 +180,7 @@ fn light_cones() {
     let light: &Light = &scene.lights[0];
     for from in [Vec3::new(0.0, -0.2, 0.0), Vec3::new(-0.2, 0.0, 0.3)] {
         let samples: Vec<_> = (0..SAMPLES).map(|i| light.sample(&scene, from, pair(i, 0)).unwrap()).collect();
-        let LightKind::Area { shape: AreaShape::Sphere { center, .. }, .. } = light.kind else { panic!() };
+        let LightKind::Area(AreaLight { shape: AreaShape::Sphere { center, .. }, .. }) = light.kind else { panic!() };
         let axis = (center - from).as_dvec3().normalize();
         let pdf = samples[0].pdf.unwrap();
         let low = 1.0 - 1.0 / (TAU * f64::from(pdf));

@@ -12,7 +12,10 @@ mod solid;
 pub use camera::{Camera, Connection};
 pub use compile::{Compiled, FilmSettings, Integrator, RenderSettings, compile, world_mesh};
 pub use features::SceneFeatures;
-pub use light::{Aim, AreaShape, Emission, EmissionStart, Exit, GuidedPair, Light, LightKind, LightSample};
+pub use light::{
+    Aim, AreaLight, AreaShape, BeamLight, DirectionalLight, Emission, EmissionStart, EnvironmentLight, Exit,
+    GuidedPair, Light, LightKind, LightSample, PointLight, SpotLight,
+};
 pub use material::{Material, Medium, MediumId, SpectrumId};
 pub use solid::Solid;
 

@@ -10,7 +10,10 @@ use crate::math;
 use crate::sampling::AliasTable;
 use crate::scene::description::{self, LightDescription, ObjectDescription, SceneDescription, ShapeDescription};
 use crate::scene::solid::any_overlaps;
-use crate::scene::{Aim, AreaShape, Light, LightKind, Solid};
+use crate::scene::{
+    Aim, AreaLight, AreaShape, BeamLight, DirectionalLight, EnvironmentLight, Light, LightKind, PointLight, Solid,
+    SpotLight,
+};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum, WavelengthDensity};
 use glam::{DAffine3, DVec3};
 
@@ -88,7 +91,7 @@ pub fn compile(
         sampled.push(if light.is_sampled() && !light.is_local() { power } else { 0.0 });
         emitting.push(if light.can_emit() { power } else { 0.0 });
         caustic.push(match lights.caustic_aim {
-            Some(aim) if makes_caustics(&light, raw.bounds, &aim) => {
+            Some(aim) if light.makes_caustics(raw.bounds, &aim) => {
                 power * light.aimed_share(raw.bounds, &aim, normalization.radius)
             }
             _ => 0.0,
@@ -135,7 +138,7 @@ fn raw_lights(
     }
     if let Some(environment) = &description.environment {
         raw.push(Raw {
-            kind: LightKind::Environment,
+            kind: LightKind::Environment(EnvironmentLight),
             spectrum: spectra.resolve(&environment.radiance, Role::Emission)?,
             factor: 1.0,
             bounds: None,
@@ -161,22 +164,24 @@ fn shapeless_light(light: &LightDescription, spectra: &mut Spectra, normalizatio
     let (kind, spectrum, factor, bounds) = match &light.kind {
         Kind::Point { position, intensity } => {
             let position = point(*position);
-            (LightKind::Point { position }, intensity, per_area, Some(Aabb::from_points([position])))
+            (LightKind::Point(PointLight { position }), intensity, per_area, Some(Aabb::from_points([position])))
         }
         Kind::Spot { position, direction, intensity, inner_degrees, outer_degrees } => {
             let position = point(*position);
             let (inner, outer) = (one_minus_cos(*inner_degrees), one_minus_cos(*outer_degrees));
-            let kind = LightKind::Spot { position, axis: unit(*direction), inner, outer };
+            let kind = LightKind::Spot(SpotLight { position, axis: unit(*direction), inner, outer });
             (kind, intensity, per_area, Some(Aabb::from_points([position])))
         }
         Kind::Directional { direction, irradiance, angular_diameter_degrees } => {
             let one_minus_cos = one_minus_cos(0.5 * angular_diameter_degrees);
-            (LightKind::Directional { direction: unit(*direction), one_minus_cos }, irradiance, 1.0, None)
+            let light = DirectionalLight { direction: unit(*direction), one_minus_cos };
+            (LightKind::Directional(light), irradiance, 1.0, None)
         }
         Kind::Beam { origin, direction, radius, power } => {
             let (origin, radius) = (point(*origin), normalization.length(*radius) as f32);
             let bounds = Aabb { min: origin - radius, max: origin + radius };
-            (LightKind::Beam { origin, direction: unit(*direction), radius }, power, per_area, Some(bounds))
+            let light = BeamLight { origin, direction: unit(*direction), radius };
+            (LightKind::Beam(light), power, per_area, Some(bounds))
         }
     };
     let spectrum = spectra.resolve(spectrum, Role::Emission)?;
@@ -201,7 +206,7 @@ fn area_light(object: &ObjectDescription, source: &Source, geometry: &Geometry) 
         }
         Source::Analytic(..) | Source::Polyhedron => (AreaShape::Unsampled, 0.0),
     };
-    LightKind::Area { shape, area, two_sided: object.emission_two_sided }
+    LightKind::Area(AreaLight { shape, area, two_sided: object.emission_two_sided })
 }
 
 fn triangle_light(shape: &ShapeDescription, range: std::ops::Range<u32>, geometry: &Geometry) -> (AreaShape, f32) {
@@ -245,23 +250,6 @@ fn focusing_aim(geometry: &Geometry) -> Option<Aim> {
     let bounds = casters.fold(Aabb::EMPTY, |bounds, o| bounds.union(o.bounds));
     let half = (bounds.max - bounds.min) * 0.5;
     half.is_finite().then(|| Aim { center: bounds.center(), radius: half.length() * (1.0 + 4.0 * f32::EPSILON) })
-}
-
-/// Solid angle, seen from what focuses it, below which camera paths hardly find a light: by scattering diffusely they
-/// hit it once in 30 times or less, and light paths take part.
-const SMALL_LIGHT_SR: f32 = 0.1;
-
-fn makes_caustics(light: &Light, bounds: Option<Aabb>, aim: &Aim) -> bool {
-    match light.kind {
-        LightKind::Environment => false,
-        LightKind::Directional { one_minus_cos, .. } => std::f32::consts::TAU * one_minus_cos < SMALL_LIGHT_SR,
-        LightKind::Area { area, .. } => {
-            let distance2 =
-                bounds.map_or(0.0, |b| b.center().distance_squared(aim.center)).max(aim.radius * aim.radius);
-            light.can_emit() && area < SMALL_LIGHT_SR * distance2
-        }
-        LightKind::Point { .. } | LightKind::Spot { .. } | LightKind::Beam { .. } => true,
-    }
 }
 
 /// Wavelengths at which light and observer are multiplied: 1 nm, and the knots of all emission spectra.
