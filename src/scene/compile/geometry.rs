@@ -213,8 +213,8 @@ fn lint(description: &SceneDescription, object: &ObjectDescription, placed: &Pla
         Placed::Mesh(mesh) if is_glass && mesh.signed_volume() < 0.0 => {
             warn("the dielectric is inside out: its triangles run clockwise seen from outside");
         }
-        Placed::Analytic(AnalyticShape::Disk(_), ..) if is_glass => {
-            warn("a dielectric disk has no inside; light that enters it never leaves");
+        Placed::Analytic(shape, ..) if is_glass && !shape.is_closed() => {
+            warn("a dielectric that is not closed has no inside; light that enters it never leaves");
         }
         _ => {}
     }

@@ -5,7 +5,7 @@ use super::normalize::{Normalization, power_of_two_above};
 use super::spectra::{Role, Spectra};
 use crate::Result;
 use crate::color::{Observer, xyz_of_emission};
-use crate::geometry::{Aabb, AnalyticShape, triangle_area};
+use crate::geometry::{Aabb, Patch, triangle_area};
 use crate::math;
 use crate::sampling::AliasTable;
 use crate::scene::description::{self, LightDescription, ObjectDescription, SceneDescription, ShapeDescription};
@@ -15,7 +15,7 @@ use crate::scene::{
     SpotLight,
 };
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum, WavelengthDensity};
-use glam::{DAffine3, DVec3};
+use glam::DVec3;
 
 /// The lights of a scene and the tables that draw one.
 pub struct Lights {
@@ -191,20 +191,11 @@ fn shapeless_light(light: &LightDescription, spectra: &mut Spectra, normalizatio
 fn area_light(object: &ObjectDescription, source: &Source, geometry: &Geometry) -> LightKind {
     let (shape, area) = match source {
         Source::Triangles(range) => triangle_light(&object.shape, range.clone(), geometry),
-        Source::Analytic(AnalyticShape::Sphere(sphere), transform) => {
-            sphere_light(sphere.center, sphere.radius, transform)
-        }
-        Source::Analytic(AnalyticShape::Disk(disk), transform) => {
-            let placed = *transform * disk.object_from_unit();
-            let (u, v) = (placed.matrix3.x_axis, placed.matrix3.y_axis);
-            // Mirrored, the front stays where the shape's normal goes.
-            let v = if transform.matrix3.determinant() < 0.0 { -v } else { v };
-            let area = std::f64::consts::PI * u.cross(v).length();
-            let center = placed.translation.as_vec3();
-            let normal = u.cross(v).normalize().as_vec3();
-            (AreaShape::Ellipse { center, u: u.as_vec3(), v: v.as_vec3(), normal }, area as f32)
-        }
-        Source::Analytic(..) | Source::Polyhedron => (AreaShape::Unsampled, 0.0),
+        Source::Analytic(shape, transform) => match shape.patches(transform) {
+            Some(patches) => (AreaShape::of(&patches), patches.iter().map(Patch::area).sum::<f64>() as f32),
+            None => (AreaShape::Unsampled, 0.0),
+        },
+        Source::Polyhedron => (AreaShape::Unsampled, 0.0),
     };
     LightKind::Area(AreaLight { shape, area, two_sided: object.emission_two_sided })
 }
@@ -227,21 +218,6 @@ fn triangle_light(shape: &ShapeDescription, range: std::ops::Range<u32>, geometr
         .collect();
     let area = areas.iter().sum::<f64>() as f32;
     (AreaShape::Triangles { first: range.start, table: AliasTable::new(&areas) }, area)
-}
-
-fn sphere_light(center: DVec3, radius: f64, transform: &DAffine3) -> (AreaShape, f32) {
-    let [x, y, z] = [transform.matrix3.x_axis, transform.matrix3.y_axis, transform.matrix3.z_axis];
-    let scale2 = x.length_squared();
-    let tolerance = 1024.0 * f64::EPSILON * scale2;
-    let similar = [y.length_squared() - scale2, z.length_squared() - scale2, x.dot(y), y.dot(z), z.dot(x)]
-        .into_iter()
-        .all(|difference| difference.abs() <= tolerance);
-    if !similar {
-        return (AreaShape::Unsampled, 0.0);
-    }
-    let radius = radius * scale2.sqrt();
-    let center = transform.transform_point3(center).as_vec3();
-    (AreaShape::Sphere { center, radius: radius as f32 }, (4.0 * std::f64::consts::PI * radius * radius) as f32)
 }
 
 /// A sphere around everything that can focus light; `None` if nothing can.

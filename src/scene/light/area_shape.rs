@@ -1,11 +1,11 @@
 //! Surfaces that points can be drawn from uniformly by area.
 
 use super::source::EmissionStart;
-use crate::geometry::{geometric_normal, sample_triangle};
+use crate::geometry::{Patch, geometric_normal, sample_triangle};
 use crate::math;
 use crate::sampling::{AliasTable, concentric_disk, uniform_sphere};
 use crate::scene::Scene;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// A surface that points can be drawn from uniformly by area.
 #[derive(Debug, Clone)]
@@ -46,11 +46,60 @@ pub enum AreaShape {
         /// Radius.
         radius: f32,
     },
+    /// The side of a right circular cylinder.
+    Tube {
+        /// Centre.
+        center: Vec3,
+        /// From the centre to that of an end.
+        half_axis: Vec3,
+        /// Two unit vectors across the axis.
+        across: [Vec3; 2],
+        /// Radius.
+        radius: f32,
+    },
+    /// Several surfaces.
+    Parts {
+        /// The surfaces.
+        parts: Vec<Self>,
+        /// Draws one by area.
+        table: AliasTable,
+    },
     /// A shape that no points are drawn from: only camera paths find it.
     Unsampled,
 }
 
 impl AreaShape {
+    /// The surface of these pieces.
+    pub(in crate::scene) fn of(patches: &[Patch]) -> Self {
+        if let [patch] = patches {
+            return Self::of_patch(patch);
+        }
+        let areas: Vec<f64> = patches.iter().map(Patch::area).collect();
+        Self::Parts { parts: patches.iter().map(Self::of_patch).collect(), table: AliasTable::new(&areas) }
+    }
+
+    fn of_patch(patch: &Patch) -> Self {
+        let normal = |u: DVec3, v: DVec3| u.cross(v).normalize().as_vec3();
+        match *patch {
+            Patch::Parallelogram { origin, u, v } => {
+                Self::Parallelogram { origin: origin.as_vec3(), u: u.as_vec3(), v: v.as_vec3(), normal: normal(u, v) }
+            }
+            Patch::Ellipse { center, u, v } => {
+                Self::Ellipse { center: center.as_vec3(), u: u.as_vec3(), v: v.as_vec3(), normal: normal(u, v) }
+            }
+            Patch::Sphere { center, radius } => Self::Sphere { center: center.as_vec3(), radius: radius as f32 },
+            Patch::Tube { center, half_axis, radius } => {
+                let (s, t) = half_axis.normalize().any_orthonormal_pair();
+                Self::Tube {
+                    center: center.as_vec3(),
+                    half_axis: half_axis.as_vec3(),
+                    across: [s.as_vec3(), t.as_vec3()],
+                    radius: radius as f32,
+                }
+            }
+        }
+    }
+
     /// Whether points can be drawn.
     pub(super) fn is_sampled(&self) -> bool {
         !matches!(self, Self::Unsampled)
@@ -77,6 +126,16 @@ impl AreaShape {
                 let normal = uniform_sphere(u).normalize();
                 let error = (center.abs() + *radius) * math::gamma(5);
                 EmissionStart { point: *center + normal * *radius, error, normal }
+            }
+            Self::Tube { center, half_axis, across, radius } => {
+                let (sin, cos) = math::sin_cos_turns(u[0]);
+                let normal = (across[0] * cos + across[1] * sin).normalize();
+                let error = (center.abs() + half_axis.abs() + *radius) * math::gamma(7);
+                EmissionStart { point: *center + *half_axis * (2.0 * u[1] - 1.0) + normal * *radius, error, normal }
+            }
+            Self::Parts { parts, table } => {
+                let draw = table.sample(u[0])?;
+                return parts[draw.index].point(scene, [draw.rest, u[1]]);
             }
             Self::Unsampled => return None,
         })
