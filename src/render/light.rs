@@ -9,9 +9,9 @@ use super::walk::{Crossing, Walk};
 use super::workspace::Workspace;
 use crate::bsdf::Bsdf;
 use crate::film::{Filter, Sensor, Splat};
-use crate::geometry::{Frame, Ray, offset_origin};
+use crate::geometry::{Frame, Ray};
 use crate::sampling::{Draw, Sobol, balance_heuristic};
-use crate::scene::{Emission, GuidedPair, Material, Scene, Surface};
+use crate::scene::{DielectricMaterial, Emission, GuidedPair, Material, Scene, Surface};
 use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
 use glam::Vec3;
 
@@ -144,7 +144,7 @@ impl LightTracer<'_> {
             let Some(surface) = walk.advance::<INTERIORS>() else { break };
             let object = &self.scene.objects[surface.object as usize];
             let u = walk.random();
-            let parted = if let Material::Dielectric { medium, alpha: 0.0 } = object.material {
+            let parted = if let Material::Dielectric(DielectricMaterial { medium, alpha: 0.0 }) = object.material {
                 match walk.meet_dielectric::<DISPERSION>(&surface, medium, u[2]) {
                     Crossing::Passed => continue,
                     Crossing::Ended => break,
@@ -273,14 +273,7 @@ impl<'a> Splatter<'a> {
         if cos <= 0.0 {
             return;
         }
-        let surface = Surface {
-            t: 0.0,
-            point: offset_origin(from.point, from.error, from.normal, from.normal),
-            error: Vec3::ZERO,
-            geometric: from.normal.as_dvec3(),
-            shading: from.normal,
-            object: u32::MAX,
-        };
+        let surface = Surface::of_emission(&from);
         if let Some(transmittance) = walk.visibility::<INTERIORS>(&surface, to_camera, Some(seen.lens), false) {
             self.deposit(scene, seen.film, start.spectrum * transmittance * (area * cos * seen.importance));
         }

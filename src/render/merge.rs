@@ -16,7 +16,7 @@ use crate::bsdf::{Bsdf, Indices, Lanes};
 use crate::film::{Film, LIGHT_REPLICATES, Splat};
 use crate::geometry::Frame;
 use crate::sampling::{Sobol, mix};
-use crate::scene::{Material, Surface};
+use crate::scene::{DielectricMaterial, Material, Surface};
 use crate::spectrum::{SampledSpectrum, Wavelengths};
 use rayon::prelude::*;
 use std::f32::consts::FRAC_2_PI;
@@ -106,7 +106,7 @@ fn follow_specular<const DISPERSION: bool, const INTERIORS: bool>(
         }
         let object = &walk.scene.objects[surface.object as usize];
         let u = walk.random();
-        if let Material::Dielectric { medium, alpha: 0.0 } = object.material {
+        if let Material::Dielectric(DielectricMaterial { medium, alpha: 0.0 }) = object.material {
             match walk.meet_dielectric::<DISPERSION>(&surface, medium, u[2]) {
                 Crossing::Passed => continue,
                 Crossing::Scattered => {}

@@ -6,7 +6,7 @@ use super::walk::{Crossing, Parting, Walk};
 use crate::bsdf::{Bsdf, Indices, Lanes, RoughDielectric};
 use crate::geometry::Frame;
 use crate::sampling::balance_heuristic;
-use crate::scene::{Exit, Light, LightSample, Material, Scene, Surface};
+use crate::scene::{DielectricMaterial, Exit, Light, LightSample, Material, Scene, Surface};
 use crate::spectrum::SampledSpectrum;
 use glam::Vec3;
 
@@ -75,7 +75,7 @@ fn follow<const DISPERSION: bool, const INTERIORS: bool>(
         let object = &scene.objects[surface.object as usize];
         let u = walk.random();
         let lanes = walk.lanes;
-        if let Material::Dielectric { medium, alpha: 0.0 } = object.material {
+        if let Material::Dielectric(DielectricMaterial { medium, alpha: 0.0 }) = object.material {
             let crossing = walk.meet_dielectric::<DISPERSION>(&surface, medium, u[7]);
             keep_with_lanes(walk, lanes, &mut radiance);
             match crossing {

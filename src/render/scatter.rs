@@ -9,7 +9,10 @@ use crate::bsdf::{
 };
 use crate::geometry::{Frame, Ray};
 use crate::optics;
-use crate::scene::{Material, MediumId, Object, SpectrumId, Surface};
+use crate::scene::{
+    ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, MediumId, MirrorMaterial, Object, Parameter,
+    Surface,
+};
 use crate::spectrum::SampledSpectrum;
 use glam::Vec3;
 
@@ -45,7 +48,7 @@ impl Walk<'_> {
         } else {
             Frame { geometric: surface.geometric, shading: surface.shading }
         };
-        if let Material::Dielectric { medium, alpha } = object.material {
+        if let Material::Dielectric(DielectricMaterial { medium, alpha }) = object.material {
             return self.meet_rough_dielectric(surface, medium, Ggx::new(alpha), frame);
         }
         if back && !object.two_sided {
@@ -54,30 +57,30 @@ impl Walk<'_> {
         let scene = self.scene;
         let spectra = &mut self.workspace.spectra;
         let bsdf = match object.material {
-            Material::Diffuse { reflectance } => {
-                Bsdf::Diffuse(Diffuse { reflectance: spectra.spectrum(scene, reflectance) })
+            Material::Diffuse(DiffuseMaterial { reflectance }) => {
+                Bsdf::Diffuse(Diffuse { reflectance: spectra.parameter(scene, reflectance) })
             }
-            Material::Mirror { reflectance } => {
-                Bsdf::Mirror(Mirror { reflectance: spectra.spectrum(scene, reflectance) })
+            Material::Mirror(MirrorMaterial { reflectance }) => {
+                Bsdf::Mirror(Mirror { reflectance: spectra.parameter(scene, reflectance) })
             }
-            Material::Conductor { eta, k, alpha } => {
+            Material::Conductor(ConductorMaterial { eta, k, alpha }) => {
                 let facets = self.conductor::<INTERIORS>(eta, k);
                 match alpha {
                     0.0 => Bsdf::Conductor(facets),
                     alpha => Bsdf::RoughConductor(RoughConductor { facets, ggx: Ggx::new(alpha) }),
                 }
             }
-            Material::Black | Material::Dielectric { .. } => return Met::Black,
+            Material::Black(_) | Material::Dielectric(_) => return Met::Black,
         };
         Met::Scatterer(bsdf, frame)
     }
 
-    fn conductor<const INTERIORS: bool>(&mut self, eta: SpectrumId, k: SpectrumId) -> Conductor {
+    fn conductor<const INTERIORS: bool>(&mut self, eta: Parameter, k: Parameter) -> Conductor {
         let Workspace { spectra, interiors, .. } = &mut *self.workspace;
         let outside = if INTERIORS { interiors.medium(self.scene) } else { None };
         Conductor {
-            eta: spectra.spectrum(self.scene, eta),
-            k: spectra.spectrum(self.scene, k),
+            eta: spectra.parameter(self.scene, eta),
+            k: spectra.parameter(self.scene, k),
             eta_outside: spectra.indices(self.scene, outside).eta,
         }
     }
@@ -148,7 +151,7 @@ impl Walk<'_> {
 
     /// Crosses a boundary whose other side has been looked at before; shadow rays have used the memory since.
     fn cross_again(&mut self, surface: &Surface) {
-        let Material::Dielectric { medium, .. } = self.scene.objects[surface.object as usize].material else { return };
+        let Some(medium) = self.scene.objects[surface.object as usize].material.medium() else { return };
         let (_, known) = self.boundary(surface, medium);
         self.cross(known);
     }
@@ -184,7 +187,7 @@ impl Walk<'_> {
         }
         let Workspace { interiors, shadow_interiors, .. } = &mut *self.workspace;
         match self.scene.objects.get(surface.object as usize).map(|object| object.material) {
-            Some(Material::Dielectric { medium, .. }) if crosses => {
+            Some(Material::Dielectric(DielectricMaterial { medium, .. })) if crosses => {
                 shadow_interiors.set_past(interiors, self.scene, surface, medium, wi);
             }
             _ => shadow_interiors.copy_from(interiors),
@@ -206,7 +209,7 @@ impl Walk<'_> {
             }
             let Some(surface) = hit else { return Some(transmittance) };
             let object = &self.scene.objects[surface.object as usize];
-            let Material::Dielectric { medium: inside, .. } = object.material else { return None };
+            let inside = object.material.medium()?;
             beyond.set_past(shadow_interiors, self.scene, &surface, inside, ray.direction);
             let past = beyond.medium(self.scene);
             if medium != past && spectra.indices(self.scene, medium).eta != spectra.indices(self.scene, past).eta {

@@ -6,7 +6,7 @@ use super::profile::TimedRays;
 use super::walk::Bundle;
 use crate::bsdf::Indices;
 use crate::geometry::Ray;
-use crate::scene::{MediumId, Scene, SpectrumId, Surface};
+use crate::scene::{MediumId, Parameter, Scene, SpectrumId, Surface};
 use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
 use glam::Vec3;
 
@@ -136,6 +136,14 @@ impl SpectralCache {
             *value = scene.spectra[id.0 as usize].sample(&self.wavelengths);
         }
         *value
+    }
+
+    /// A material's quantity at the path's wavelengths.
+    #[inline]
+    pub fn parameter(&mut self, scene: &Scene, parameter: Parameter) -> SampledSpectrum {
+        match parameter {
+            Parameter::Spectrum(id) => self.spectrum(scene, id),
+        }
     }
 
     /// The indices of a medium at the path's wavelengths; `None` is air.

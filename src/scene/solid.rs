@@ -159,7 +159,7 @@ impl PlaneSet {
 
 impl Solid {
     pub(super) fn of(object: u32, material: &Material, bounds: Aabb, shape: SolidShape) -> Option<Self> {
-        let Material::Dielectric { medium, .. } = *material else { return None };
+        let medium = material.medium()?;
         Some(Self { object, medium, bounds, shape })
     }
 }

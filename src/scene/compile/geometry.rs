@@ -4,8 +4,8 @@ use super::materials::Materials;
 use super::normalize::Normalization;
 use super::spectra::in_referenced_file;
 use crate::geometry::{
-    Aabb, Analytic, AnalyticShape, BrilliantCut, Disk, Implicit, Lens, Mesh, Polyhedron, Sphere, TriangleSoup,
-    brilliant, implicit, prism,
+    Aabb, Analytic, AnalyticShape, BrilliantCut, Disk, Implicit, Lens, Mesh, Polyhedron, Sphere,
+    TriangleSoup, brilliant, implicit, prism,
 };
 use crate::io;
 use crate::math;
@@ -14,9 +14,9 @@ use crate::scene::description::{
     TransformStep,
 };
 use crate::scene::solid::SolidShape;
-use crate::scene::{Material, Object, Solid};
+use crate::scene::{Black, Material, Object, Solid};
 use crate::{Error, ErrorKind, Result};
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use std::ops::Range;
 
 /// An object's shape, checked, before normalisation.
@@ -92,13 +92,14 @@ fn place_object(object: &ObjectDescription) -> Result<Placed> {
         ShapeDescription::Quad { origin, u, v } => {
             let [o, u, v] = [*origin, *u, *v].map(DVec3::from);
             let positions = vec![o, o + u, o + u + v, o + v];
-            Mesh { positions, indices: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }
+            let uvs = vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+            Mesh { positions, indices: vec![[0, 1, 2], [0, 2, 3]], uvs, ..Mesh::default() }
         }
-        ShapeDescription::Triangles { positions, indices, normals, .. } => Mesh {
+        ShapeDescription::Triangles { positions, indices, normals, uvs } => Mesh {
             positions: positions.iter().copied().map(DVec3::from).collect(),
             indices: indices.clone(),
             normals: normals.iter().copied().map(DVec3::from).collect(),
-            ..Mesh::default()
+            uvs: uvs.iter().copied().map(DVec2::from).collect(),
         },
         ShapeDescription::Mesh { file } => {
             io::mesh::read(file).map_err(|e| in_referenced_file(e, file, format!("{at}.file")))?
@@ -226,6 +227,7 @@ pub struct Geometry {
     pub positions: Vec<Vec3>,
     pub triangles: Vec<[u32; 3]>,
     pub normals: Vec<Vec3>,
+    pub uvs: Vec<Vec2>,
     pub triangle_objects: Vec<u32>,
     pub analytic: Vec<Analytic>,
     pub analytic_objects: Vec<u32>,
@@ -254,10 +256,11 @@ impl Geometry {
         let mut geometry = Self::default();
         for (object, placed) in description.objects.iter().zip(placed) {
             let index = geometry.objects.len() as u32;
-            let (material, two_sided) = object.material.map_or((Material::Black, false), |m| materials.materials[m]);
+            let (material, two_sided) =
+                object.material.map_or((Material::Black(Black), false), |m| materials.materials[m]);
             let (bounds, source) = match placed {
                 Placed::Mesh(mesh) => {
-                    let is_glass = matches!(material, Material::Dielectric { .. }) && object.emission.is_none();
+                    let is_glass = material.medium().is_some() && object.emission.is_none();
                     geometry.add_mesh(mesh, is_glass, index, normalization)
                 }
                 Placed::Analytic(shape, transform, _) => {
@@ -272,6 +275,9 @@ impl Geometry {
         }
         if geometry.normals.iter().all(|n| *n == Vec3::ZERO) {
             geometry.normals = Vec::new();
+        }
+        if geometry.uvs.iter().all(|uv| uv.is_nan()) {
+            geometry.uvs = Vec::new();
         }
         Ok(geometry)
     }
@@ -301,6 +307,8 @@ impl Geometry {
         self.triangle_objects.resize(self.triangles.len(), object);
         let normal = |i: usize| mesh.normals.get(i).map_or(Vec3::ZERO, |n| n.normalize_or_zero().as_vec3());
         self.normals.extend((0..mesh.positions.len()).map(normal));
+        let uv = |i: usize| mesh.uvs.get(i).map_or(Vec2::NAN, |uv| uv.as_vec2());
+        self.uvs.extend((0..mesh.positions.len()).map(uv));
         let bounds = Aabb::from_points(self.positions[first_vertex as usize..].iter().copied());
         (bounds, Source::Triangles(first..self.triangles.len() as u32))
     }

@@ -6,7 +6,10 @@ use crate::bsdf::Ggx;
 use crate::io::{catalogue, refractive_index_info};
 use crate::optics::ior::{Extrapolation, IndexOfRefraction};
 use crate::scene::description::{ConductorDescription, IorDescription, IorKind, MaterialKind, SceneDescription};
-use crate::scene::{Material, Medium, MediumId, SpectrumId};
+use crate::scene::{
+    ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, Medium, MediumId, MirrorMaterial, Parameter,
+    SpectrumId,
+};
 use crate::spectrum::{PiecewiseLinear, Spectrum};
 use crate::{Error, Result};
 
@@ -31,11 +34,11 @@ impl Materials {
             let material = match &material.kind {
                 MaterialKind::Diffuse { reflectance } => {
                     let function = spectra.resolve(reflectance, Role::Reflectance)?;
-                    Material::Diffuse { reflectance: spectra.add(&function, 1.0) }
+                    Material::Diffuse(DiffuseMaterial { reflectance: Parameter::Spectrum(spectra.add(&function, 1.0)) })
                 }
                 MaterialKind::Mirror { reflectance } => {
                     let function = spectra.resolve(reflectance, Role::Reflectance)?;
-                    Material::Mirror { reflectance: spectra.add(&function, 1.0) }
+                    Material::Mirror(MirrorMaterial { reflectance: Parameter::Spectrum(spectra.add(&function, 1.0)) })
                 }
                 MaterialKind::Conductor { index, roughness } => {
                     let alpha = alpha(*roughness, &material.at, description, warnings);
@@ -55,7 +58,7 @@ impl Materials {
                     };
                     media.push(Medium { dispersive: ior.is_dispersive(), ior, absorption, priority: *priority });
                     let alpha = alpha(*roughness, &material.at, description, warnings);
-                    Material::Dielectric { medium: MediumId(media.len() as u32 - 1), alpha }
+                    Material::Dielectric(DielectricMaterial { medium: MediumId(media.len() as u32 - 1), alpha })
                 }
             };
             materials.push((material, two_sided));
@@ -91,7 +94,8 @@ fn conductor(index: &ConductorDescription, alpha: f32, at: &str, spectra: &mut S
             (spectra.add(&eta, 1.0), spectra.add(&k, 1.0))
         }
     };
-    Ok(Material::Conductor { eta, k, alpha })
+    let [eta, k] = [eta, k].map(Parameter::Spectrum);
+    Ok(Material::Conductor(ConductorMaterial { eta, k, alpha }))
 }
 
 fn index_of_refraction(ior: &IorDescription) -> Result<(IndexOfRefraction, Option<String>)> {

@@ -108,6 +108,7 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
         positions: geometry.positions,
         triangles: geometry.triangles,
         normals: geometry.normals,
+        uvs: geometry.uvs,
         triangle_objects: geometry.triangle_objects,
         analytic: geometry.analytic,
         analytic_objects: geometry.analytic_objects,

@@ -1,69 +1,73 @@
-//! What surfaces and volumes are made of, by index into the scene's tables.
+//! What surfaces and volumes are made of, by index into the scene's tables. Each material is a struct in a file of its own
+//! that states its capabilities; [`Material`] forwards. The rest of the crate asks for capabilities, not for names.
+
+mod black;
+mod capabilities;
+mod conductor;
+mod dielectric;
+mod diffuse;
+mod mirror;
+mod parameter;
+
+pub use black::Black;
+pub use conductor::ConductorMaterial;
+pub use dielectric::DielectricMaterial;
+pub use diffuse::DiffuseMaterial;
+pub use mirror::MirrorMaterial;
+pub use parameter::{MediumId, Parameter, SpectrumId};
 
 use crate::optics::ior::IndexOfRefraction;
-
-/// Index into [`Scene::spectra`](super::Scene::spectra).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct SpectrumId(pub u32);
-
-/// Index into [`Scene::media`](super::Scene::media).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct MediumId(pub u32);
+use capabilities::Capabilities;
 
 /// A surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Material {
     /// Reflects nothing.
-    Black,
+    Black(Black),
     /// Lambertian.
-    Diffuse {
-        /// Reflectance.
-        reflectance: SpectrumId,
-    },
+    Diffuse(DiffuseMaterial),
     /// Perfect mirror.
-    Mirror {
-        /// Reflectance.
-        reflectance: SpectrumId,
-    },
+    Mirror(MirrorMaterial),
     /// Metal.
-    Conductor {
-        /// Real part of the index.
-        eta: SpectrumId,
-        /// Imaginary part.
-        k: SpectrumId,
-        /// GGX α; 0 is smooth.
-        alpha: f32,
-    },
+    Conductor(ConductorMaterial),
     /// The boundary of a transparent volume.
-    Dielectric {
-        /// What is inside.
-        medium: MediumId,
-        /// GGX α; 0 is smooth.
-        alpha: f32,
-    },
+    Dielectric(DielectricMaterial),
 }
 
-/// Roughness from which on a surface no longer counts as focusing light: lobes as wide as that are found by camera paths
-/// as well as by light paths.
-pub const LARGEST_FOCUSING_ALPHA: f32 = 0.5;
+/// Calls the same method of whichever material it is.
+macro_rules! for_material {
+    ($materials:expr, $material:ident => $body:expr) => {
+        match $materials {
+            Material::Black($material) => $body,
+            Material::Diffuse($material) => $body,
+            Material::Mirror($material) => $body,
+            Material::Conductor($material) => $body,
+            Material::Dielectric($material) => $body,
+        }
+    };
+}
 
 impl Material {
     /// Whether light is scattered into single directions only.
     pub fn is_specular(&self) -> bool {
-        match *self {
-            Self::Mirror { .. } => true,
-            Self::Conductor { alpha, .. } | Self::Dielectric { alpha, .. } => alpha == 0.0,
-            Self::Black | Self::Diffuse { .. } => false,
-        }
+        for_material!(self, material => material.is_specular())
     }
 
     /// Whether light is scattered into so small a part of all directions that it can make caustics.
     pub fn focuses(&self) -> bool {
-        match *self {
-            Self::Mirror { .. } => true,
-            Self::Conductor { alpha, .. } | Self::Dielectric { alpha, .. } => alpha < LARGEST_FOCUSING_ALPHA,
-            Self::Black | Self::Diffuse { .. } => false,
-        }
+        for_material!(self, material => material.focuses())
+    }
+
+    /// Whether it scatters about interpolated normals where a mesh has them.
+    #[inline]
+    pub fn uses_shading_normals(&self) -> bool {
+        for_material!(self, material => material.uses_shading_normals())
+    }
+
+    /// What is inside, if this is the boundary of a transparent volume.
+    #[inline]
+    pub fn medium(&self) -> Option<MediumId> {
+        for_material!(self, material => material.medium())
     }
 }
 
