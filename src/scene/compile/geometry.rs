@@ -4,7 +4,7 @@ use super::materials::Materials;
 use super::normalize::Normalization;
 use super::spectra::in_referenced_file;
 use crate::geometry::{
-    Aabb, Analytic, AnalyticShape, BrilliantCut, Disk, Implicit, Lens, Mesh, Polyhedron, Sphere,
+    Aabb, Analytic, AnalyticShape, BrilliantCut, Cuboid, Cylinder, Disk, Implicit, Lens, Mesh, Polyhedron, Sphere,
     TriangleSoup, brilliant, implicit, prism,
 };
 use crate::io;
@@ -80,6 +80,14 @@ fn place_object(object: &ObjectDescription) -> Result<Placed> {
         ShapeDescription::Disk { center, normal, radius } => {
             let disk = Disk::new(DVec3::from(*center), DVec3::from(*normal), *radius).map_err(here)?;
             return analytic(AnalyticShape::Disk(disk), transform).map_err(there);
+        }
+        ShapeDescription::Box { min, max } => {
+            let cuboid = Cuboid::new(DVec3::from(*min), DVec3::from(*max)).map_err(here)?;
+            return analytic(AnalyticShape::Cuboid(cuboid), transform).map_err(there);
+        }
+        ShapeDescription::Cylinder { radius, height, open } => {
+            let cylinder = Cylinder::new(*radius, *height, *open).map_err(here)?;
+            return analytic(AnalyticShape::Cylinder(cylinder), transform).map_err(there);
         }
         ShapeDescription::Lens { radii, thickness, diameter } => {
             let lens = Lens::new(*radii, *thickness, *diameter).map_err(here)?;
