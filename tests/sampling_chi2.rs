@@ -233,6 +233,22 @@ fn area_lights() {
             "disk light",
             json!({ "shape": { "type": "disk", "center": [0, 0.8, 0.1], "normal": [0.1, -1, 0.1], "radius": 0.5 } }),
         ),
+        ("box light", json!({ "shape": { "type": "box", "min": [-0.3, 0.4, -0.2], "max": [0.2, 0.9, 0.5] } })),
+        (
+            "sheared box light",
+            json!({ "shape": { "type": "box", "min": [-0.3, -0.2, -0.2], "max": [0.2, 0.2, 0.5] },
+            "transform": [{ "matrix": [-1, 0.2, 0, 0, 0.1, 1, 0.3, 0.7, 0, 0, 0.8, 0.1, 0, 0, 0, 1] }] }),
+        ),
+        (
+            "cylinder light",
+            json!({ "shape": { "type": "cylinder", "radius": 0.25, "height": 0.5 },
+            "transform": [{ "rotate_degrees": 50, "axis": [1, 0, 0.5] }, { "translate": [0, 0.7, 0.1] }] }),
+        ),
+        (
+            "open cylinder light",
+            json!({ "shape": { "type": "cylinder", "radius": 0.3, "height": 0.9, "open": true },
+            "transform": [{ "rotate_degrees": 80, "axis": [1, 0, 0.5] }, { "translate": [0, 0.7, 0.1] }] }),
+        ),
     ];
     for (what, mut light) in lights {
         light["emission"] = json!(1);
@@ -261,7 +277,18 @@ fn emission() {
     let sphere = json!({ "emission": 1, "shape": { "type": "sphere", "center": [-0.3, 0.8, 0.1], "radius": 0.1 } });
     let sun =
         json!({ "type": "directional", "direction": [0.3, -1, 0.2], "irradiance": 1, "angular_diameter_degrees": 10 });
-    for (what, light) in [("quad", quad), ("two-sided quad", two_sided), ("sphere", sphere), ("sun", sun)] {
+    let crate_like =
+        json!({ "emission": 1, "shape": { "type": "box", "min": [-0.4, 0.7, -0.3], "max": [-0.2, 0.9, 0.3] } });
+    let tube = json!({ "emission": 1, "shape": { "type": "cylinder", "radius": 0.1, "height": 0.4 },
+        "transform": [{ "rotate_degrees": 70, "axis": [1, 0, 0] }, { "translate": [-0.3, 0.8, 0] }] });
+    for (what, light) in [
+        ("quad", quad),
+        ("two-sided quad", two_sided),
+        ("sphere", sphere),
+        ("sun", sun),
+        ("box", crate_like),
+        ("cylinder", tube),
+    ] {
         let scene = light_scene(light);
         let light = &scene.lights[0];
         // The disc's radiance is what the light's weight contains besides the density.
