@@ -1,14 +1,15 @@
 //! Lights, and what is drawn from them: which light, and which wavelengths.
 
+use super::compiler::Compiler;
 use super::geometry::{Geometry, Source};
-use super::normalize::{Normalization, power_of_two_above};
-use super::spectra::{Role, Spectra};
+use super::normalize::power_of_two_above;
+use super::spectra::Role;
 use crate::Result;
 use crate::color::{Observer, xyz_of_emission};
 use crate::geometry::{Aabb, Patch, triangle_area};
 use crate::math;
 use crate::sampling::AliasTable;
-use crate::scene::description::{self, LightDescription, ObjectDescription, SceneDescription, ShapeDescription};
+use crate::scene::description::{self, LightDescription, ObjectDescription, ShapeDescription};
 use crate::scene::solid::any_overlaps;
 use crate::scene::{
     Aim, AreaLight, AreaShape, BeamLight, DirectionalLight, EnvironmentLight, Light, LightKind, PointLight, Solid,
@@ -46,22 +47,14 @@ struct Raw {
 /// Share of the brightest light below which one is warned about: in f32 it would vanish beside it.
 const FAINTEST: f64 = 1.0 / (1u128 << 100) as f64;
 
-pub fn compile(
-    description: &SceneDescription,
-    geometry: &mut Geometry,
-    solids: &[Solid],
-    spectra: &mut Spectra,
-    normalization: &Normalization,
-    warnings: &mut Vec<String>,
-) -> Result<Lights> {
-    let raw = raw_lights(description, geometry, spectra, normalization)?;
+pub fn compile(compiler: &mut Compiler, geometry: &mut Geometry, solids: &[Solid]) -> Result<Lights> {
+    let raw = raw_lights(compiler, geometry)?;
+    let radius = compiler.normalization.radius;
     let peak = |r: &Raw| r.spectrum.range().1 * r.factor;
     let brightest = raw.iter().map(peak).fold(0.0, f64::max);
     let radiance_scale = power_of_two_above(brightest);
     for light in raw.iter().filter(|r| peak(r) < brightest * FAINTEST) {
-        let file = description.file.display();
-        warnings
-            .push(format!("{file}: {}: this light is 2^-100 of the brightest or less, and will not be seen", light.at));
+        compiler.warn(&light.at, "this light is 2^-100 of the brightest or less, and will not be seen");
     }
 
     let spectral = SpectralGrid::new(&raw);
@@ -72,7 +65,7 @@ pub fn compile(
         emitting: AliasTable::default(),
         infinite: Vec::new(),
         local: Vec::new(),
-        wavelengths: spectral.density(&raw, normalization.radius),
+        wavelengths: spectral.density(&raw, radius),
         radiance_scale,
         caustic_aim: focusing_aim(geometry),
     };
@@ -81,19 +74,17 @@ pub fn compile(
         let index = lights.lights.len() as u32;
         let factor = raw.factor / radiance_scale;
         let light = Light {
-            spectrum: spectra.add(&raw.spectrum, factor),
-            wavelengths: spectral.density(std::slice::from_ref(&raw), normalization.radius),
+            spectrum: compiler.spectra.add(&raw.spectrum, factor),
+            wavelengths: spectral.density(std::slice::from_ref(&raw), radius),
             may_be_inside: raw.bounds.is_some_and(|b| any_overlaps(solids, &b)),
             kind: raw.kind,
         };
         let luminance = xyz_of_emission(&raw.spectrum, Observer::cie_1931_2deg()).y * factor;
-        let power = luminance * light.kind.power(normalization.radius);
+        let power = luminance * light.kind.power(radius);
         sampled.push(if light.is_sampled() && !light.is_local() { power } else { 0.0 });
         emitting.push(if light.can_emit() { power } else { 0.0 });
         caustic.push(match lights.caustic_aim {
-            Some(aim) if light.makes_caustics(raw.bounds, &aim) => {
-                power * light.aimed_share(raw.bounds, &aim, normalization.radius)
-            }
+            Some(aim) if light.makes_caustics(raw.bounds, &aim) => power * light.aimed_share(raw.bounds, &aim, radius),
             _ => 0.0,
         });
         if light.is_local() {
@@ -113,12 +104,8 @@ pub fn compile(
     Ok(lights)
 }
 
-fn raw_lights(
-    description: &SceneDescription,
-    geometry: &Geometry,
-    spectra: &mut Spectra,
-    normalization: &Normalization,
-) -> Result<Vec<Raw>> {
+fn raw_lights(compiler: &Compiler, geometry: &Geometry) -> Result<Vec<Raw>> {
+    let Compiler { description, spectra, .. } = compiler;
     let mut raw = Vec::new();
     for (index, object) in description.objects.iter().enumerate() {
         if let Some(emission) = &object.emission {
@@ -134,7 +121,7 @@ fn raw_lights(
         }
     }
     for light in &description.lights {
-        raw.push(shapeless_light(light, spectra, normalization)?);
+        raw.push(shapeless_light(light, compiler)?);
     }
     if let Some(environment) = &description.environment {
         raw.push(Raw {
@@ -151,7 +138,8 @@ fn raw_lights(
     Ok(raw)
 }
 
-fn shapeless_light(light: &LightDescription, spectra: &mut Spectra, normalization: &Normalization) -> Result<Raw> {
+fn shapeless_light(light: &LightDescription, compiler: &Compiler) -> Result<Raw> {
+    let normalization = &compiler.normalization;
     use description::LightKind as Kind;
     let unit = |v: [f64; 3]| DVec3::from(v).normalize().as_vec3();
     let point = |p: [f64; 3]| normalization.point(DVec3::from(p)).as_vec3();
@@ -184,7 +172,7 @@ fn shapeless_light(light: &LightDescription, spectra: &mut Spectra, normalizatio
             (LightKind::Beam(light), power, per_area, Some(bounds))
         }
     };
-    let spectrum = spectra.resolve(spectrum, Role::Emission)?;
+    let spectrum = compiler.spectra.resolve(spectrum, Role::Emission)?;
     Ok(Raw { kind, spectrum, factor, bounds, object: None, at: light.at.clone() })
 }
 

@@ -1,10 +1,12 @@
 //! SceneDescription → [`Scene`]: names become indices, spectra become tables, shapes become primitives in one tree, and
 //! all lengths and radiances are brought to about unit size by powers of two, so that no scale is special.
 
+mod compiler;
 mod geometry;
 mod lights;
 mod materials;
 mod normalize;
+mod place;
 mod spectra;
 
 use super::description::{FilterKind, FovAxis, Integrator as IntegratorName, SceneDescription};
@@ -13,12 +15,12 @@ use crate::film::Filter;
 use crate::geometry::Bvh;
 use crate::math;
 use crate::{Error, ErrorKind, Result};
+use compiler::Compiler;
 use geometry::Geometry;
-pub use geometry::world_mesh;
 use glam::DVec3;
 use materials::Materials;
 use normalize::Normalization;
-use spectra::Spectra;
+pub use place::world_mesh;
 use std::time::Instant;
 
 /// What a scene file asks for, ready to render.
@@ -90,14 +92,14 @@ pub fn compile(description: &SceneDescription) -> Result<Compiled> {
 fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
     let integrator = integrator(description.render.integrator);
     let mut warnings = Vec::new();
-    let placed = geometry::place(description, &mut warnings)?;
-    let normalization = Normalization::of(description, &placed);
-    let mut spectra = Spectra::new(description);
-    let materials = Materials::compile(description, &mut spectra, &normalization, &mut warnings)?;
-    let mut geometry = Geometry::compile(description, placed, &normalization, &materials)?;
+    let placed = place::place(description, &mut warnings)?;
+    let mut compiler = Compiler::new(description, Normalization::of(description, &placed), warnings);
+    let materials = Materials::compile(&mut compiler)?;
+    let mut geometry = Geometry::compile(&compiler, placed, &materials)?;
     let bvh = Bvh::build(&geometry.positions, &geometry.triangles, &geometry.analytic_bounds());
     let solids = geometry.solids();
-    let lights = lights::compile(description, &mut geometry, &solids, &mut spectra, &normalization, &mut warnings)?;
+    let lights = lights::compile(&mut compiler, &mut geometry, &solids)?;
+    let Compiler { normalization, spectra, mut warnings, .. } = compiler;
     warnings.extend(spectra.take_warnings());
     let features = SceneFeatures {
         dispersion: materials.media.iter().any(|m| m.dispersive),
