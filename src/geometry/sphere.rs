@@ -29,7 +29,6 @@ impl Sphere {
     }
 }
 
-/// Draws by area only while the sphere stays one.
 impl LocalShape for Sphere {
     fn object_from_local(&self) -> DAffine3 {
         DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(self.radius)), self.center)
@@ -72,6 +71,7 @@ impl LocalShape for Sphere {
         Vec::new()
     }
 
+    /// Exact while the sphere stays one.
     fn patches(&self, world_from_object: &DAffine3) -> Option<Vec<Patch>> {
         let DMat3 { x_axis: x, y_axis: y, z_axis: z } = world_from_object.matrix3;
         let scale2 = x.length_squared();

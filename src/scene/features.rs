@@ -1,4 +1,4 @@
-//! What a scene needs. Derived from the compiled scene, never asked of the user.
+//! Which mechanisms rendering a scene needs: derived from the compiled scene, never asked of the user.
 
 /// Mechanisms that a scene can do without. Each picks a kernel in which its absence costs nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,6 +10,6 @@ pub struct SceneFeatures {
 }
 
 impl SceneFeatures {
-    /// Everything, needed or not. A scene rendered so gives the same bits.
+    /// Every mechanism, needed or not. Rendering with all of them gives the same bits.
     pub const ALL: Self = Self { dispersion: true, interiors: true };
 }

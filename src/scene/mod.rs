@@ -69,7 +69,7 @@ pub struct Scene {
     pub camera: Camera,
     /// Wavelengths of camera paths.
     pub wavelengths: WavelengthDensity,
-    /// What the scene needs.
+    /// Mechanisms that rendering the scene needs.
     pub features: SceneFeatures,
     /// Radius of a sphere about the origin that holds everything.
     pub radius: f32,

@@ -56,14 +56,6 @@ impl Analytic {
         Aabb::enclosing(min - slack, max + slack)
     }
 
-    /// Whether the shape encloses a volume.
-    pub fn is_closed(&self) -> bool {
-        match &self.placed {
-            Placed::Ball(_) | Placed::Polyhedron(_) => true,
-            Placed::Transformed(shape) => shape.shape().is_closed(),
-        }
-    }
-
     /// Whether a point is inside; `false` for an open shape.
     pub fn contains(&self, point: DVec3) -> bool {
         match &self.placed {

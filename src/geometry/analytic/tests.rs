@@ -8,6 +8,16 @@ use super::*;
 use crate::ErrorKind;
 use glam::{DMat3, Vec3};
 
+impl Analytic {
+    /// Whether the shape encloses a volume.
+    pub fn is_closed(&self) -> bool {
+        match &self.placed {
+            Placed::Ball(_) | Placed::Polyhedron(_) => true,
+            Placed::Transformed(shape) => shape.shape().is_closed(),
+        }
+    }
+}
+
 /// One of every shape, about unit size.
 fn shapes() -> Vec<(&'static str, AnalyticShape)> {
     let lens = |radii, thickness| AnalyticShape::Lens(Lens::new(radii, thickness, 1.0).unwrap());

@@ -7,7 +7,7 @@ use super::node::WIDTH;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Item {
     pub bounds: Aabb,
-    /// Triangles in their order, then analytic primitives.
+    /// Number of the primitive: triangles in their order, then analytic primitives.
     pub key: u32,
     pub analytic: bool,
 }

@@ -16,8 +16,6 @@ mod torus;
 use glam::{DAffine3, DVec3};
 
 pub use gyroid::Gyroid;
-pub use interval::Interval;
-pub use number::{Differentiable, Dual, Number};
 pub use roots::Field;
 pub use smooth_union::SmoothUnion;
 pub use superquadric::Superquadric;
@@ -61,11 +59,6 @@ impl Implicit {
     /// The function: negative inside, positive outside.
     pub fn value(&self, p: DVec3) -> f64 {
         for_surface!(self, surface => roots::value_at(surface, p))
-    }
-
-    /// The function's gradient, which points outward; 0 at singular points.
-    pub fn gradient(&self, p: DVec3) -> DVec3 {
-        for_surface!(self, surface => roots::gradient(surface, p))
     }
 
     fn object_box(&self) -> Box3 {

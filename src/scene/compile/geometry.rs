@@ -22,7 +22,7 @@ pub struct Geometry {
     pub analytic: Vec<Analytic>,
     pub analytic_objects: Vec<u32>,
     pub objects: Vec<Object>,
-    /// Where each object's primitive is.
+    /// What each object has become.
     pub sources: Vec<Source>,
 }
 

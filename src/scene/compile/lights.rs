@@ -39,12 +39,12 @@ struct Raw {
     /// From the user's units to those of the compiled scene.
     factor: f64,
     bounds: Option<Aabb>,
-    /// The object that it belongs to.
+    /// Index of the object that it belongs to.
     object: Option<usize>,
     at: String,
 }
 
-/// Share of the brightest light below which one is warned about: in f32 it would vanish beside it.
+/// Share of the brightest light's radiance below which a light vanishes beside it in f32, so that it deserves a warning.
 const FAINTEST: f64 = 1.0 / (1u128 << 100) as f64;
 
 pub fn compile(compiler: &mut Compiler, geometry: &mut Geometry, solids: &[Solid]) -> Result<Lights> {
@@ -133,7 +133,7 @@ fn raw_lights(compiler: &Compiler, geometry: &Geometry) -> Result<Vec<Raw>> {
             at: environment.at.clone(),
         });
     }
-    // Black lights are no lights.
+    // Drop lights that emit nothing.
     raw.retain(|r| r.spectrum.range().1 > 0.0);
     Ok(raw)
 }

@@ -15,7 +15,7 @@ use crate::{Error, Result};
 
 /// Materials by the index that objects use, and the media inside dielectrics.
 pub struct Materials {
-    /// With whether the back reflects as the front does.
+    /// Each material, and whether its back reflects as its front does.
     pub materials: Vec<(Material, bool)>,
     pub media: Vec<Medium>,
 }

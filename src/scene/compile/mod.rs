@@ -28,22 +28,22 @@ use std::time::Instant;
 pub struct Compiled {
     /// The scene.
     pub scene: Scene,
-    /// How to sample it.
+    /// Settings of the renderer.
     pub render: RenderSettings,
-    /// What to record it on.
+    /// Settings of the film.
     pub film: FilmSettings,
-    /// What deserves a look, one line each.
+    /// Warnings, one line each.
     pub warnings: Vec<String>,
 }
 
-/// How to sample.
+/// Settings of the renderer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RenderSettings {
     /// Camera paths per pixel, on average; the most of them where something else stops the render.
     pub samples_per_pixel: u64,
     /// relMSE below which the render stops.
     pub target_error: Option<f64>,
-    /// When the render stops.
+    /// Time at which the render stops.
     pub deadline: Option<Instant>,
     /// Whether pixels that have converged get fewer samples, and the others more.
     pub adaptive: bool,
@@ -51,7 +51,7 @@ pub struct RenderSettings {
     pub max_depth: u32,
     /// Seed of all sequences.
     pub seed: u64,
-    /// Technique.
+    /// Light transport technique.
     pub integrator: Integrator,
 }
 
@@ -70,7 +70,7 @@ pub enum Integrator {
     Hero,
 }
 
-/// Size of the picture and how samples belong to pixels.
+/// Size of the picture, and the filter by which samples belong to pixels.
 #[derive(Debug, Clone)]
 pub struct FilmSettings {
     /// Pixels per row.
