@@ -61,58 +61,67 @@ pub fn world_mesh(object: &ObjectDescription) -> Result<Option<Mesh>> {
 
 fn place_object(object: &ObjectDescription) -> Result<Placed> {
     let at = format!("{}.shape", object.at);
-    let here = |e: Error| if e.place.is_empty() { e.at(at.clone()) } else { e };
     let transform_at = format!("{}.transform", object.at);
     let transform = transform(&object.transform).map_err(|e| e.at(transform_at.clone()))?;
-    // What is wrong with a good shape once it is placed is wrong with the transform, if it has one.
-    let placed_at = if object.transform.is_empty() { at.clone() } else { transform_at };
-    let there = |e: Error| e.at(placed_at.clone());
-    let mesh = match &object.shape {
+    let shape = shape(&object.shape, &at).map_err(|e| if e.place.is_empty() { e.at(at.clone()) } else { e })?;
+    match shape {
+        Shape::Mesh(mesh) => Ok(Placed::Mesh(transformed(mesh, &transform))),
+        Shape::Analytic(shape) => {
+            // What is wrong with a good shape once it is placed is wrong with the transform, if it has one.
+            let placed_at = if object.transform.is_empty() { at } else { transform_at };
+            let bounds = Analytic::new(shape.clone(), transform).map_err(|e| e.at(placed_at))?.bounds();
+            Ok(Placed::Analytic(shape, transform, bounds))
+        }
+    }
+}
+
+/// A shape in its own coordinates, checked.
+enum Shape {
+    Mesh(Mesh),
+    Analytic(AnalyticShape),
+}
+
+fn shape(shape: &ShapeDescription, at: &str) -> Result<Shape> {
+    Ok(match shape {
         ShapeDescription::Sphere { center, radius } => {
-            let sphere = Sphere::new(DVec3::from(*center), *radius).map_err(here)?;
-            return analytic(AnalyticShape::Sphere(sphere), transform).map_err(there);
+            Shape::Analytic(AnalyticShape::Sphere(Sphere::new(DVec3::from(*center), *radius)?))
         }
         ShapeDescription::Disk { center, normal, radius } => {
-            let disk = Disk::new(DVec3::from(*center), DVec3::from(*normal), *radius).map_err(here)?;
-            return analytic(AnalyticShape::Disk(disk), transform).map_err(there);
+            Shape::Analytic(AnalyticShape::Disk(Disk::new(DVec3::from(*center), DVec3::from(*normal), *radius)?))
         }
         ShapeDescription::Box { min, max } => {
-            let cuboid = Cuboid::new(DVec3::from(*min), DVec3::from(*max)).map_err(here)?;
-            return analytic(AnalyticShape::Cuboid(cuboid), transform).map_err(there);
+            Shape::Analytic(AnalyticShape::Cuboid(Cuboid::new(DVec3::from(*min), DVec3::from(*max))?))
         }
         ShapeDescription::Cylinder { radius, height, open } => {
-            let cylinder = Cylinder::new(*radius, *height, *open).map_err(here)?;
-            return analytic(AnalyticShape::Cylinder(cylinder), transform).map_err(there);
+            Shape::Analytic(AnalyticShape::Cylinder(Cylinder::new(*radius, *height, *open)?))
         }
         ShapeDescription::Lens { radii, thickness, diameter } => {
-            let lens = Lens::new(*radii, *thickness, *diameter).map_err(here)?;
-            return analytic(AnalyticShape::Lens(lens), transform).map_err(there);
+            Shape::Analytic(AnalyticShape::Lens(Lens::new(*radii, *thickness, *diameter)?))
         }
-        ShapeDescription::Implicit(surface) => {
-            let surface = implicit_surface(surface).map_err(here)?;
-            return analytic(AnalyticShape::Implicit(surface), transform).map_err(there);
-        }
-        ShapeDescription::Quad { origin, u, v } => {
-            let [o, u, v] = [*origin, *u, *v].map(DVec3::from);
-            let positions = vec![o, o + u, o + u + v, o + v];
-            let uvs = vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
-            Mesh { positions, indices: vec![[0, 1, 2], [0, 2, 3]], uvs, ..Mesh::default() }
-        }
-        ShapeDescription::Triangles { positions, indices, normals, uvs } => Mesh {
+        ShapeDescription::Implicit(surface) => Shape::Analytic(AnalyticShape::Implicit(implicit_surface(surface)?)),
+        ShapeDescription::Quad { origin, u, v } => Shape::Mesh(quad(*origin, *u, *v)),
+        ShapeDescription::Triangles { positions, indices, normals, uvs } => Shape::Mesh(Mesh {
             positions: positions.iter().copied().map(DVec3::from).collect(),
             indices: indices.clone(),
             normals: normals.iter().copied().map(DVec3::from).collect(),
             uvs: uvs.iter().copied().map(DVec2::from).collect(),
-        },
+        }),
         ShapeDescription::Mesh { file } => {
-            io::mesh::read(file).map_err(|e| in_referenced_file(e, file, format!("{at}.file")))?
+            Shape::Mesh(io::mesh::read(file).map_err(|e| in_referenced_file(e, file, format!("{at}.file")))?)
         }
         ShapeDescription::Prism { apex_degrees, side, length } => {
-            solid(prism(*apex_degrees, *side, *length).map_err(here)?)
+            Shape::Mesh(solid(prism(*apex_degrees, *side, *length)?))
         }
-        ShapeDescription::Brilliant(cut) => solid(brilliant(&brilliant_cut(cut)).map_err(here)?),
-    };
-    Ok(Placed::Mesh(transformed(mesh, &transform)))
+        ShapeDescription::Brilliant(cut) => Shape::Mesh(solid(brilliant(&brilliant_cut(cut))?)),
+    })
+}
+
+/// A parallelogram as two triangles.
+fn quad(origin: [f64; 3], u: [f64; 3], v: [f64; 3]) -> Mesh {
+    let [o, u, v] = [origin, u, v].map(DVec3::from);
+    let positions = vec![o, o + u, o + u + v, o + v];
+    let uvs = vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+    Mesh { positions, indices: vec![[0, 1, 2], [0, 2, 3]], uvs, ..Mesh::default() }
 }
 
 fn brilliant_cut(cut: &BrilliantDescription) -> BrilliantCut {
@@ -142,11 +151,6 @@ fn implicit_surface(surface: &ImplicitDescription) -> Result<Implicit> {
             Implicit::Tanglecube(implicit::Tanglecube::new(*size, *level)?)
         }
     })
-}
-
-fn analytic(shape: AnalyticShape, transform: DAffine3) -> Result<Placed> {
-    let bounds = Analytic::new(shape.clone(), transform)?.bounds();
-    Ok(Placed::Analytic(shape, transform, bounds))
 }
 
 /// The steps of a transform as one map.
