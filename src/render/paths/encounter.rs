@@ -5,7 +5,9 @@ use super::walk::Walk;
 use super::workspace::Workspace;
 use crate::bsdf::{Bsdf, Conductor, Dielectric, Diffuse, Ggx, Lanes, Mirror, Parting, RoughConductor, RoughDielectric};
 use crate::geometry::Frame;
-use crate::scene::{Material, MediumId, SpectrumId, Surface};
+use crate::scene::{
+    ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, MediumId, MirrorMaterial, Parameter, Surface,
+};
 use glam::Vec3;
 
 /// Absent boundaries that a path may cross: they do not count as events, and no path may go on for ever.
@@ -18,14 +20,13 @@ impl Walk<'_> {
         let object = &self.scene.objects[surface.object as usize];
         let wo = -self.ray.direction;
         let focuses = object.material.focuses();
-        if let Some(medium) = object.material.medium() {
+        if let Material::Dielectric(DielectricMaterial { medium, alpha }) = object.material {
             let (boundary, entered) = self.boundary(surface, medium);
             let Some(boundary) = boundary else { return self.pass(surface, entered) };
             if self.carried.parting == Parting::Terminate && boundary.is_dispersive() {
                 self.carried.leave_to_hero();
             }
             let frame = turned(surface, surface.geometric.dot(self.ray.direction.as_dvec3()) >= 0.0);
-            let alpha = object.material.alpha();
             if alpha == 0.0 {
                 let bsdf = Bsdf::Dielectric(boundary);
                 return Encounter::Vertex(Vertex { surface, bsdf, frame, wo, focuses, entered });
@@ -52,29 +53,29 @@ impl Walk<'_> {
         let scene = self.scene;
         let spectra = &mut self.workspace.spectra;
         Some(match material {
-            Material::Diffuse { reflectance } => {
-                Bsdf::Diffuse(Diffuse { reflectance: spectra.spectrum(scene, reflectance) })
+            Material::Diffuse(DiffuseMaterial { reflectance }) => {
+                Bsdf::Diffuse(Diffuse { reflectance: spectra.parameter(scene, reflectance) })
             }
-            Material::Mirror { reflectance } => {
-                Bsdf::Mirror(Mirror { reflectance: spectra.spectrum(scene, reflectance) })
+            Material::Mirror(MirrorMaterial { reflectance }) => {
+                Bsdf::Mirror(Mirror { reflectance: spectra.parameter(scene, reflectance) })
             }
-            Material::Conductor { eta, k, alpha } => {
+            Material::Conductor(ConductorMaterial { eta, k, alpha }) => {
                 let facets = self.conductor::<INTERIORS>(eta, k);
                 match alpha {
                     0.0 => Bsdf::Conductor(facets),
                     alpha => Bsdf::RoughConductor(RoughConductor { facets, ggx: Ggx::new(alpha) }),
                 }
             }
-            Material::Black | Material::Dielectric { .. } => return None,
+            Material::Black(_) | Material::Dielectric(_) => return None,
         })
     }
 
-    fn conductor<const INTERIORS: bool>(&mut self, eta: SpectrumId, k: SpectrumId) -> Conductor {
+    fn conductor<const INTERIORS: bool>(&mut self, eta: Parameter, k: Parameter) -> Conductor {
         let Workspace { spectra, interiors, .. } = &mut *self.workspace;
         let outside = if INTERIORS { interiors.medium(self.scene) } else { None };
         Conductor {
-            eta: spectra.spectrum(self.scene, eta),
-            k: spectra.spectrum(self.scene, k),
+            eta: spectra.parameter(self.scene, eta),
+            k: spectra.parameter(self.scene, k),
             eta_outside: spectra.indices(self.scene, outside).eta,
         }
     }

@@ -22,6 +22,12 @@ pub fn decode_shape(folder: &std::path::Path, json: &Json, path: &Path) -> Resul
             normal: direction(&fields, "normal")?,
             radius: fields.number("radius"),
         },
+        "box" => cuboid(&fields)?,
+        "cylinder" => ShapeDescription::Cylinder {
+            radius: fields.number("radius"),
+            height: fields.number("height"),
+            open: fields.flag("open"),
+        },
         "triangles" => triangles(&fields)?,
         "mesh" => ShapeDescription::Mesh { file: folder.join(fields.text("file")) },
         "prism" => ShapeDescription::Prism {
@@ -85,6 +91,15 @@ fn quad(fields: &Fields) -> Result<ShapeDescription> {
         return Err(error(ErrorKind::Degenerate, fields.path(), "`u` and `v` are parallel; expected two directions"));
     }
     Ok(ShapeDescription::Quad { origin: fields.array("origin"), u, v })
+}
+
+fn cuboid(fields: &Fields) -> Result<ShapeDescription> {
+    let (min, max): ([f64; 3], [f64; 3]) = (fields.array("min"), fields.array("max"));
+    if let Some(axis) = (0..3).find(|&axis| min[axis] >= max[axis]) {
+        let message = format!("expected more than the {} of `min`, found {}", show(min[axis]), show(max[axis]));
+        return Err(error(ErrorKind::Degenerate, &Path::Index(&fields.at("max"), axis), message));
+    }
+    Ok(ShapeDescription::Box { min, max })
 }
 
 fn triangles(fields: &Fields) -> Result<ShapeDescription> {

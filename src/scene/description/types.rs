@@ -334,6 +334,22 @@ pub enum ShapeDescription {
         /// Radius, > 0.
         radius: f64,
     },
+    /// A box with edges along the axes.
+    Box {
+        /// Smallest corner, metres.
+        min: [f64; 3],
+        /// Largest corner, metres.
+        max: [f64; 3],
+    },
+    /// A cylinder: axis y, centred.
+    Cylinder {
+        /// Radius, metres, > 0.
+        radius: f64,
+        /// Height, metres, > 0.
+        height: f64,
+        /// Whether it is without caps.
+        open: bool,
+    },
     /// Triangles given in the file.
     Triangles {
         /// Vertices.

@@ -18,6 +18,8 @@ pub static SHAPE: Tagged = Tagged {
         ("sphere", Body::Table(&SPHERE)),
         ("quad", Body::Table(&QUAD)),
         ("disk", Body::Table(&DISK)),
+        ("box", Body::Table(&BOX)),
+        ("cylinder", Body::Table(&CYLINDER)),
         ("triangles", Body::Table(&TRIANGLES)),
         ("mesh", Body::Table(&MESH)),
         ("implicit", Body::Tagged(&IMPLICIT)),
@@ -63,6 +65,19 @@ static DISK_FIELDS: [Field; 3] = [
     required("radius", LENGTH, "Radius, metres."),
 ];
 static DISK: Table = shape("a disk", "A flat disk.", &DISK_FIELDS);
+
+static BOX_FIELDS: [Field; 2] = [
+    required("min", VECTOR, "Smallest corner, metres."),
+    required("max", VECTOR, "Largest corner, metres; each component above that of `min`."),
+];
+static BOX: Table = shape("a box", "A box with edges along the axes.", &BOX_FIELDS);
+
+static CYLINDER_FIELDS: [Field; 3] = [
+    required("radius", LENGTH, "Radius, metres."),
+    required("height", LENGTH, "Height, metres."),
+    default("open", Kind::Bool, "false", "Whether it is without caps."),
+];
+static CYLINDER: Table = shape("a cylinder", "A cylinder: axis y, centred.", &CYLINDER_FIELDS);
 
 const POINTS: Kind = Kind::Numbers(Numbers::tuples(3, Range::COORDINATE));
 static TRIANGLES_FIELDS: [Field; 4] = [
