@@ -19,6 +19,7 @@ use Grant::{Items, Module};
 const RULES: &[(&str, &[Grant])] = &[
     ("math", &[]),
     ("error", &[]),
+    ("references", &[]),
     ("geometry", &[]),
     ("sampling", &[]),
     ("spectrum", &[Module("sampling")]),
@@ -73,7 +74,7 @@ const RULES: &[(&str, &[Grant])] = &[
 ];
 
 /// Modules that may use everything, and that nothing may use.
-const TOP: &[&str] = &["cli", "main"];
+const TOP: &[&str] = &["cli", "main", "project"];
 
 /// Numbers that look like absolute epsilons, and why they are none: file, part of the line, reason.
 const EPSILONS: &[(&str, &str, &str)] = &[

@@ -16,6 +16,7 @@ use crate::color::RgbSpace;
 use crate::math;
 use crate::spectrum::LAMBDA_MIN_NM;
 use glam::{DMat3, DVec3};
+#[cfg(feature = "render")]
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
@@ -257,7 +258,10 @@ impl Table {
         let mut table = Self { nodes: Vec::new(), rgb_from_space, space_from_rgb };
         let [lightness, saturation, hue] = NODES;
         let count = lightness * saturation * hue;
-        table.nodes = (0..count).into_par_iter().map(|i| table.node(Node::of_index(i))).collect();
+        let nodes = 0..count;
+        #[cfg(feature = "render")]
+        let nodes = nodes.into_par_iter();
+        table.nodes = nodes.map(|i| table.node(Node::of_index(i))).collect();
         table
     }
 
