@@ -1,10 +1,9 @@
 //! One run: a picture, and what it cost.
 
 use super::variant::{Kind, Variant};
-use super::{Session, reference::Reference, work::Work};
+use super::{Session, work::Work};
 use crate::cli::process;
 use crate::io::exr_read::{self, Preference};
-use crate::metrics::{self, Pair};
 use crate::render::{Phase, Progress, Rendering, render};
 use crate::scene::{RenderSettings, SceneFeatures};
 use crate::{Error, ErrorKind, Result};
@@ -66,32 +65,6 @@ impl Kinds {
             seconds_per_ray: profile.intersections.seconds_per_ray(),
         }
     }
-}
-
-impl Run {
-    /// Fills in the errors of a picture.
-    pub fn judge(&mut self, work: &Work, picture: &Image, reference: &Reference, mask: Option<&[bool]>) -> Result<()> {
-        let pair = Pair::new(work.size()[0], picture, &reference.mean, mask)?;
-        self.raw_relmse = metrics::relative_mse(&pair);
-        self.trimmed_relmse = metrics::trimmed_relative_mse(&pair);
-        self.non_finite_pixels = pair.non_finite()[0];
-        Ok(())
-    }
-}
-
-/// Brings the picture of another program to the reference's scale.
-pub fn rescale(work: &Work, variant: &Variant, picture: &mut Image, reference: &Reference) -> Result<()> {
-    let Kind::Command { scale, .. } = variant.kind else { return Ok(()) };
-    let factor = match scale {
-        Some(factor) => factor,
-        None => {
-            let pair = Pair::new(work.size()[0], picture, &reference.mean, None)?;
-            let mean = pair.pixels().flat_map(|(test, _)| test).sum::<f64>() / (3 * pair.count()) as f64;
-            if mean > 0.0 { pair.mean() / mean } else { 1.0 }
-        }
-    };
-    picture.iter_mut().for_each(|pixel| *pixel = pixel.map(|v| v * factor));
-    Ok(())
 }
 
 /// The processor time of this process and of those it has waited for.

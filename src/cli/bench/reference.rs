@@ -1,10 +1,12 @@
 //! The picture that all others are measured against: made by the technique least like those on test, with its own error
 //! known, and kept for the next time.
 
+use super::Session;
 use super::measure::{self, Image, Run};
-use super::variant::{Kind, integrator_by_name, integrator_name};
+use super::variant::Kind;
 use super::work::{Work, hash_bytes};
-use super::{Session, usage};
+use crate::cli::names::{INTEGRATORS, integrator_name, named};
+use crate::cli::usage;
 use crate::io::exr::encode_planes;
 use crate::io::exr_read::{self, Preference};
 use crate::io::output::write_atomically;
@@ -121,7 +123,7 @@ fn relative_to(reference: &Image, variance: &Image, work: &Work, mask: Option<&[
 pub fn get(session: &Session, work: &Work, mask: Option<&[bool]>) -> Result<Reference> {
     let (integrator, why) = match session.args.reference.as_deref() {
         Some(name) if is_file(name) => return from_file(work, Path::new(name)),
-        Some(name) => (integrator_by_name("--reference", name)?, "as asked for"),
+        Some(name) => (named("--reference", name, &INTEGRATORS)?, "as asked for"),
         None => least_alike(session, work),
     };
     let path = path_for(session, work, integrator);
