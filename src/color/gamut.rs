@@ -25,7 +25,8 @@
 
 use super::adaptation::bradford;
 use super::{LinearRgb, RgbSpace, xyz_from_xy};
-use crate::{Error, ErrorKind, Result, math};
+use crate::color::space::OKLAB_CONES_FROM_XYZ;
+use crate::{Error, Result, math};
 use glam::{DMat3, DVec3};
 
 /// How colours get into a gamut.
@@ -46,15 +47,12 @@ impl GamutMethod {
     /// A method by its name.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the nearest name.
+    /// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
     pub fn by_name(name: &str) -> Result<Self> {
         match name {
             "clip" => Ok(Self::Clip),
             "desaturate" => Ok(Self::Desaturate),
-            _ => {
-                let message = format!("unknown gamut mapping {name:?}; expected \"clip\" or \"desaturate\"");
-                Err(Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names()))
-            }
+            _ => Err(Error::unknown_name("gamut mapping", name, Self::names())),
         }
     }
 }
@@ -117,13 +115,6 @@ fn lightness(roots: DVec3) -> f64 {
     ROOTS_FROM_LAB.inverse().row(0).dot(roots)
 }
 
-/// XYZ under D65 to cone responses of Oklab.
-const CONE_FROM_XYZ: DMat3 = DMat3::from_cols(
-    DVec3::new(0.818_933_010_1, 0.032_984_543_6, 0.048_200_301_8),
-    DVec3::new(0.361_866_742_4, 0.929_311_871_5, 0.264_366_269_1),
-    DVec3::new(-0.128_859_713_7, 0.036_145_638_7, 0.633_851_707_0),
-);
-
 /// Oklab to cube roots of cone responses. Its first column is exactly 1, which makes greys exactly neutral.
 const ROOTS_FROM_LAB: DMat3 = DMat3::from_cols(
     DVec3::new(1.0, 1.0, 1.0),
@@ -135,7 +126,7 @@ impl GamutMapper {
     /// A mapping into the gamut of a space.
     pub fn new(space: &RgbSpace, method: GamutMethod) -> Self {
         let adapted = bradford(space.white_xyz(), xyz_from_xy(RgbSpace::srgb().white));
-        let cone_from_rgb = CONE_FROM_XYZ * adapted * space.xyz_from_rgb;
+        let cone_from_rgb = OKLAB_CONES_FROM_XYZ * adapted * space.xyz_from_rgb;
         let white = cone_from_rgb * DVec3::ONE;
         let cone_from_rgb = DMat3::from_diagonal(white.recip()) * cone_from_rgb;
         let rgb_from_cone = cone_from_rgb.inverse();

@@ -64,11 +64,9 @@ impl LuminousEfficiency {
     /// # Errors
     /// [`ErrorKind::UnknownName`] with the nearest name.
     pub fn by_name(name: &str) -> Result<&'static Self> {
-        ALL.iter().find(|known| known.name == name).ok_or_else(|| {
-            let expected = Self::names().collect::<Vec<_>>().join(", ");
-            let message = format!("unknown luminous efficiency function {name:?}; expected one of {expected}");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        ALL.iter()
+            .find(|known| known.name == name)
+            .ok_or_else(|| Error::unknown_name("luminous efficiency function", name, Self::names()))
     }
 
     /// Names that [`Self::by_name`] knows.

@@ -9,7 +9,7 @@ mod sampled;
 mod table;
 mod wavelengths;
 
-pub(crate) use function::{BOLTZMANN, LIGHT_SPEED, PLANCK};
+pub(crate) use function::{BOLTZMANN, FWHM_PER_SIGMA, LIGHT_SPEED, PLANCK};
 pub use function::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum, planck_radiance};
 #[cfg(feature = "render")]
 pub(crate) use piecewise_linear::check_knot;

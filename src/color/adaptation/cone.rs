@@ -1,6 +1,6 @@
 //! Von Kries' rule in the cone-like responses of twelve transforms.
 
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, Result};
 use glam::{DMat3, DVec3};
 
 /// Responses in which adaptation is a scaling of each by the ratio of the whites.
@@ -61,13 +61,13 @@ impl ConeTransform {
     /// A transform by its name: `bradford`, `cat16`, …
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the nearest name.
+    /// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
     pub fn by_name(name: &str) -> Result<Self> {
-        NAMED.into_iter().find(|(known, _)| *known == name).map(|(_, transform)| transform).ok_or_else(|| {
-            let known = Self::names().collect::<Vec<_>>().join(", ");
-            let message = format!("unknown chromatic adaptation transform {name:?}; expected one of {known}");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        NAMED
+            .into_iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, transform)| transform)
+            .ok_or_else(|| Error::unknown_name("chromatic adaptation transform", name, Self::names()))
     }
 
     /// XYZ to cone-like responses.
@@ -114,6 +114,7 @@ impl ConeTransform {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ErrorKind;
     use crate::color::xyz_from_xy;
 
     #[test]

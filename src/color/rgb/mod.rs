@@ -85,11 +85,7 @@ impl RgbSpace {
     pub fn by_name(name: &str) -> Result<&'static RgbSpace> {
         let canonical = spaces::OTHER_NAMES.iter().find(|(other, _)| *other == name).map_or(name, |(_, same)| *same);
         let found = Self::all().iter().chain(Self::published()).find(|space| space.name == canonical);
-        found.ok_or_else(|| {
-            let known = Self::names().collect::<Vec<_>>().join(", ");
-            let message = format!("unknown RGB space {name:?}; expected one of {known}");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        found.ok_or_else(|| Error::unknown_name("RGB space", name, Self::names()))
     }
 
     /// IEC 61966-2-1 sRGB, whose primaries are those of Rec. 709 \[IEC61966\].
