@@ -7,6 +7,18 @@
 use crate::source::{Source, outside_tests};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Circles that are still to be mended.
+const MENDING: [&str; 8] = [
+    "geometry/analytic.rs ↔ geometry/implicit/mod.rs ↔ geometry/lens.rs ↔ geometry/polyhedron.rs",
+    "geometry/bvh/build.rs ↔ geometry/bvh/collapse.rs",
+    "io/exr_read.rs ↔ io/exr_read/channels.rs",
+    "render/fork.rs ↔ render/walk.rs ↔ render/workspace.rs",
+    "scene/compile/geometry.rs ↔ scene/compile/materials.rs ↔ scene/compile/normalize.rs",
+    "scene/description/json.rs ↔ scene/description/path.rs",
+    "scene/description/tables/kinds.rs ↔ scene/description/tables/spectrum.rs",
+    "scene/description/tables/scene.rs ↔ scene/description/tables/shape.rs",
+];
+
 /// A module with what its file defines and imports at the top level.
 struct Module {
     file: String,
@@ -43,7 +55,7 @@ fn is_word(c: char) -> bool {
 }
 
 /// The words of code and what stands between them, white space aside.
-fn tokens(code: &str) -> Vec<&str> {
+pub fn tokens(code: &str) -> Vec<&str> {
     let mut tokens = Vec::new();
     let mut rest = code.trim_start();
     while let Some(first) = rest.chars().next() {
@@ -118,7 +130,7 @@ fn without_self(mut path: Vec<String>) -> Vec<String> {
 }
 
 /// The code without its `use` declarations, and these.
-fn split_uses<'a>(tokens: &[&'a str]) -> (Vec<&'a str>, Vec<(bool, Vec<String>, String)>) {
+pub fn split_uses<'a>(tokens: &[&'a str]) -> (Vec<&'a str>, Vec<(bool, Vec<String>, String)>) {
     let (mut code, mut uses) = (Vec::new(), Vec::new());
     let mut at = 0;
     while at < tokens.len() {
@@ -317,7 +329,10 @@ fn is_one(source: &Source) -> bool {
 #[test]
 fn no_circles_between_files() {
     let graph = Graph::new(outside_tests().filter(is_one));
-    let circles: Vec<String> = graph.circles().iter().map(|files| files.join(" ↔ ")).collect();
+    let mut circles: Vec<String> = graph.circles().iter().map(|files| files.join(" ↔ ")).collect();
+    let stale: Vec<_> = MENDING.iter().filter(|known| !circles.iter().any(|circle| circle == *known)).collect();
+    assert!(stale.is_empty(), "listed, but mended or changed; take off the list: {stale:#?}");
+    circles.retain(|circle| !MENDING.contains(&circle.as_str()));
     assert!(circles.is_empty(), "files that use each other:\n{}", circles.join("\n"));
 }
 

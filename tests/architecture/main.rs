@@ -1,5 +1,6 @@
 //! Reads the source and holds the rules of its architecture: who may use whom, and what may not be written at all.
 
+mod api;
 mod circles;
 mod source;
 

@@ -123,7 +123,7 @@ pub fn is_test_file(file: &str) -> bool {
     file.rsplit('/').next() == Some("tests.rs")
 }
 
-fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
+pub fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.is_dir() {
