@@ -35,9 +35,9 @@ pub enum ErrorKind {
     FileNotFound,
     /// A file whose content is not what its format demands.
     FileFormat,
-    /// More than the documented limit.
+    /// A size or number above the documented limit.
     LimitExceeded,
-    /// Understood, but not in this version.
+    /// A value that is understood, but not supported.
     Unsupported,
     /// A scene of another format version.
     Version,

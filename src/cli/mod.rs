@@ -1,19 +1,19 @@
 //! Command line: one file a subcommand; the only place that prints, shows progress or exits.
 
-pub mod bench;
-pub mod compare;
-pub mod completions;
-pub mod export;
-pub mod glass;
+mod bench;
+mod compare;
+mod completions;
+mod export;
+mod glass;
 mod heat;
 mod names;
 mod plot;
 mod process;
-pub mod render;
-pub mod scene;
-pub mod spectrum;
+mod render;
+mod scene;
+mod spectrum;
 mod swatch;
-pub mod upsample;
+mod upsample;
 mod values;
 
 use crate::{Error, ErrorKind, Result};
@@ -22,9 +22,9 @@ use std::io::Write;
 use std::process::ExitCode;
 
 /// Exit code of a render that was interrupted after it had written what it had.
-pub const INTERRUPTED: u8 = 75;
+const INTERRUPTED: u8 = 75;
 /// Exit code of a comparison over its threshold.
-pub const OVER_THRESHOLD: u8 = 4;
+const OVER_THRESHOLD: u8 = 4;
 
 /// A spectral renderer and colour library.
 #[derive(Debug, Parser)]

@@ -32,9 +32,9 @@ use glam::{DMat3, DVec3};
 /// How colours get into a gamut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum GamutMethod {
-    /// Each component by itself.
+    /// Clips each component by itself.
     Clip,
-    /// Less chroma at the same lightness and hue.
+    /// Lowers the chroma at the same lightness and hue.
     Desaturate,
 }
 
@@ -203,7 +203,7 @@ fn push_roots(cubic: [f64; 4], roots: &mut Vec<f64>) {
     }
 }
 
-/// Where the derivative of a cubic polynomial is 0, ascending; NaN for turns that do not exist.
+/// Arguments at which the derivative of a cubic polynomial is 0, ascending; NaN for turns that do not exist.
 fn turning_points([_, c1, c2, c3]: [f64; 4]) -> [f64; 2] {
     // 3 c₃ t² + 2 c₂ t + c₁, by the form that does not cancel.
     let q = -(c2 + (c2 * c2 - 3.0 * c3 * c1).sqrt().copysign(c2));
@@ -239,11 +239,11 @@ pub struct GamutReport {
     pub colors: usize,
     /// Colours with a component below 0 or above 1, or one that is not finite.
     pub outside: usize,
-    /// Those with a component below 0: more saturated than the gamut.
+    /// Colours with a component below 0: more saturated than the gamut.
     pub below_zero: usize,
-    /// Those with a component above 1: brighter than the gamut.
+    /// Colours with a component above 1: brighter than the gamut.
     pub above_one: usize,
-    /// Those with a component that is not finite; they count in nothing that follows.
+    /// Colours with a component that is not finite; they count in nothing that follows.
     pub not_finite: usize,
     /// The largest [`excess`].
     pub largest_excess: f64,

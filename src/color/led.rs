@@ -40,7 +40,7 @@ impl Led {
         Ok(Self { peak_nm, half_width_nm, power: 1.0 })
     }
 
-    /// The same with another power at its peak.
+    /// Returns the diode with another power at its peak.
     pub fn with_power(self, power: f64) -> Self {
         Self { power, ..self }
     }

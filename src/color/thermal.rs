@@ -17,7 +17,7 @@ pub struct RadiationConstants {
 }
 
 impl RadiationConstants {
-    /// From the exact constants of the SI \[SI2019\]: c₂ = 1.438776877…·10⁻² m·K.
+    /// The values that follow from the exact constants of the SI \[SI2019\]: c₂ = 1.438776877…·10⁻² m·K.
     pub const SI_2019: Self =
         Self { c1: 2.0 * PI * PLANCK * LIGHT_SPEED * LIGHT_SPEED, c2: PLANCK * LIGHT_SPEED / BOLTZMANN };
     /// c₂ = 1.4388·10⁻² m·K of the International Temperature Scale of 1990 \[PrestonThomas1990\], which CIE 15 \[CIE15\] and

@@ -40,7 +40,7 @@ const BLACKBODY_CHORD_ERROR: f64 = 1e-5;
 /// Its unit is that of what it describes: a reflectance is dimensionless, an emission W·m⁻²·sr⁻¹·nm⁻¹.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Spectrum {
-    /// The same value at every wavelength.
+    /// A value that is the same at every wavelength.
     Constant(f64),
     /// A table.
     PiecewiseLinear(PiecewiseLinear),

@@ -36,7 +36,7 @@ pub struct Run {
     pub claimed_relmse: Option<f64>,
     /// relMSE against the reference as it is.
     pub raw_relmse: f64,
-    /// The same without the worst 0.1 % of the pixels.
+    /// relMSE without the worst 0.1 % of the pixels.
     pub trimmed_relmse: f64,
     /// Pixels that are not finite.
     pub non_finite_pixels: usize,
@@ -74,12 +74,12 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// A clock.
+    /// Starts a clock.
     pub fn new() -> Self {
         Self { known: process::cpu_seconds().is_some(), started: Instant::now() }
     }
 
-    /// Whether the system tells; otherwise wall time stands in for processor time.
+    /// Whether the system tells the processor time; otherwise wall time stands in for it.
     pub fn is_known(&self) -> bool {
         self.known
     }

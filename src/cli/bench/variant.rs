@@ -11,9 +11,9 @@ const KEYS: [&str; 3] = ["integrator", "max-depth", "adaptive"];
 /// One way to render.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variant {
-    /// Its name in tables and plots.
+    /// Name in tables and plots.
     pub name: String,
-    /// How.
+    /// Renderer and settings.
     pub kind: Kind,
 }
 
@@ -31,7 +31,7 @@ pub enum Kind {
     },
     /// Another program.
     Command {
-        /// For the shell, with what is to be replaced.
+        /// Shell command with the placeholders that are replaced.
         template: String,
         /// Factor of its pictures; `None` makes the means equal.
         scale: Option<f64>,

@@ -13,13 +13,13 @@ pub struct Work {
     pub name: String,
     /// The scene.
     pub compiled: Compiled,
-    /// How it was described.
+    /// Description that the scene was compiled from.
     pub description: SceneDescription,
-    /// Wall time of compiling it.
+    /// Wall time of compiling the scene, seconds.
     pub compile_seconds: f64,
-    /// One line each.
+    /// Warnings of reading and compiling the scene, one line each.
     pub warnings: Vec<String>,
-    /// Of the scene file and all files that it names.
+    /// Hash of the scene file and of all files that it names.
     pub content_hash: u64,
 }
 

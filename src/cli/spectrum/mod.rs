@@ -121,9 +121,9 @@ fn check_plot(args: &SpectrumArgs) -> Result<()> {
 
 /// What is read.
 struct Input {
-    /// As errors and JSON name it.
+    /// Name of the file in errors and JSON.
     file: PathBuf,
-    /// As pictures name it.
+    /// Title of drawings.
     title: String,
     spectra: Vec<NamedSpectrum>,
     quantity: Option<Quantity>,

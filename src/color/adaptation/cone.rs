@@ -8,19 +8,19 @@ use glam::{DMat3, DVec3};
 pub enum ConeTransform {
     /// Bianco and Schettini 2010 \[Bianco2010\].
     Bianco2010,
-    /// The same with only positive responses \[Bianco2010\].
+    /// The transform of Bianco and Schettini with only positive responses \[Bianco2010\].
     BiancoPc2010,
     /// Bradford \[Lam1985\].
     Bradford,
-    /// Of CIECAM02 \[Moroney2002\].
+    /// CAT02, the transform of CIECAM02 \[Moroney2002\].
     Cat02,
     /// CAT02 with a blue response that cannot be negative \[Brill2008\].
     Cat02Brill2008,
-    /// Of CIECAM16 \[Li2017\].
+    /// CAT16, the transform of CIECAM16 \[Li2017\].
     Cat16,
-    /// Of CMCCAT97 \[Luo1998\]: Bradford's responses, here without CMCCAT97's exponent of blue.
+    /// The transform of CMCCAT97 \[Luo1998\]: Bradford's responses, here without CMCCAT97's exponent of blue.
     Cmccat97,
-    /// Of CMCCAT2000 \[Li2002\].
+    /// The transform of CMCCAT2000 \[Li2002\].
     Cmccat2000,
     /// Fairchild's \[Fairchild2013\].
     Fairchild,

@@ -18,13 +18,13 @@ pub struct UniformSpace {
 }
 
 impl UniformSpace {
-    /// For differences of any size.
+    /// CAM02-UCS or CAM16-UCS, for differences of any size.
     pub const UCS: Self =
         Self { lightness_divisor: 1.0, lightness_compression: 0.007, colorfulness_compression: 0.0228 };
-    /// For large differences.
+    /// CAM02-LCD or CAM16-LCD, for large differences.
     pub const LCD: Self =
         Self { lightness_divisor: 0.77, lightness_compression: 0.007, colorfulness_compression: 0.0053 };
-    /// For small differences.
+    /// CAM02-SCD or CAM16-SCD, for small differences.
     pub const SCD: Self =
         Self { lightness_divisor: 1.24, lightness_compression: 0.007, colorfulness_compression: 0.0363 };
 

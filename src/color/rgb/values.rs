@@ -11,7 +11,7 @@ pub struct LinearRgb(pub DVec3);
 pub struct EncodedRgb(pub DVec3);
 
 impl LinearRgb {
-    /// From components.
+    /// Makes a colour of its components.
     pub const fn new(red: f64, green: f64, blue: f64) -> Self {
         Self(DVec3::new(red, green, blue))
     }
@@ -23,7 +23,7 @@ impl LinearRgb {
 }
 
 impl EncodedRgb {
-    /// From components.
+    /// Makes a colour of its components.
     pub const fn new(red: f64, green: f64, blue: f64) -> Self {
         Self(DVec3::new(red, green, blue))
     }

@@ -15,7 +15,7 @@ struct PowerSpace {
 }
 
 impl PowerSpace {
-    /// From matrices written in rows; XYZ to cones first.
+    /// Makes a space of its matrices, written in rows.
     fn new(cones_from_xyz: [[f64; 3]; 3], exponent: f64, opponent_from_compressed: [[f64; 3]; 3]) -> Self {
         let [cones_from_xyz, opponent_from_compressed] =
             [cones_from_xyz, opponent_from_compressed].map(|rows| DMat3::from_cols_array_2d(&rows).transpose());
