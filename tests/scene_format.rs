@@ -150,6 +150,15 @@ fn the_schema_accepts_the_full_scene() {
 }
 
 #[test]
+fn the_committed_reference_is_what_the_declarations_say() {
+    let committed = include_str!("../docs/scene-reference.md");
+    assert!(committed == reference(), "run `abbe scene reference > docs/scene-reference.md`");
+    for kind in ["sphere", "smooth-union", "dielectric", "directional", "blackbody_kelvin", "sellmeier", "matrix"] {
+        assert!(committed.contains(&format!("{kind}`")) || committed.contains(&format!("\"{kind}\"`")), "{kind}");
+    }
+}
+
+#[test]
 fn tables_that_end_in_the_visible_and_unused_things_are_warned_of() {
     let edited = FULL
         .replace("[380, 500, 600, 780]", "[400, 500, 600, 690]")

@@ -5,13 +5,15 @@ mod camera;
 mod compile;
 pub mod description;
 mod features;
+mod integrator;
 mod light;
 mod material;
 mod solid;
 
 pub use camera::{Camera, Connection};
-pub use compile::{Compiled, FilmSettings, Integrator, RenderSettings, compile, world_mesh};
+pub use compile::{Compiled, FilmSettings, RenderSettings, compile, world_mesh};
 pub use features::SceneFeatures;
+pub use integrator::Integrator;
 pub use light::{Aim, AreaShape, Emission, EmissionStart, Exit, GuidedPair, Light, LightKind, LightSample};
 pub use material::{Material, Medium, MediumId, SpectrumId};
 pub use solid::Solid;

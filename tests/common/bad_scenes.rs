@@ -112,7 +112,7 @@ const EDITS: &[Edit] = &[
     ("exposure is text", "\"develop\": {}", "\"develop\": {\"exposure_ev\": \"bright\"}", "unknown_name", "develop.exposure_ev", "\"auto\""),
     ("exposure is true", "\"develop\": {}", "\"develop\": {\"exposure_ev\": true}", "wrong_type", "develop.exposure_ev", "\"auto\" or a number"),
     ("unknown tonemap", "\"develop\": {}", "\"develop\": {\"tonemap\": \"reinhart\"}", "unknown_name", "develop.tonemap", "did you mean \"reinhard\"?"),
-    ("later tonemap", "\"develop\": {}", "\"develop\": {\"tonemap\": \"drago\"}", "unsupported", "develop.tonemap", "not supported yet"),
+    ("later tonemap", "\"develop\": {}", "\"develop\": {\"tonemap\": \"drago\"}", "unknown_name", "develop.tonemap", "expected \"srgb\", \"exponential\", \"reinhard\""),
     // spectra
     ("empty spectrum name", "\"red_paint\": {", "\"\": {", "missing", "spectra[\"\"]", "empty name"),
     ("empty spectrum", "[380, 600, 780]", "[]", "missing", "spectra.red_paint.wavelengths_nm", "empty list"),
@@ -143,7 +143,7 @@ const EDITS: &[Edit] = &[
     ("spectrum file of unknown type", "\"intensity\": 1.0", "\"intensity\": {\"file\": \"lamp.xls\"}", "file_format", "lights[0].intensity.file", ".csv, .spd, .spdx"),
     // materials
     ("unknown material type", "\"diffuse\"", "\"difuse\"", "unknown_name", "materials.floor.type", "did you mean \"diffuse\"?"),
-    ("later material", "\"type\": \"diffuse\"", "\"type\": \"layered\"", "unsupported", "materials.floor.type", "not supported yet"),
+    ("later material", "\"type\": \"diffuse\"", "\"type\": \"layered\"", "unknown_name", "materials.floor.type", "\"layered\" is not the type of a material; expected \"diffuse\""),
     ("material without reflectance", ", \"reflectance\": \"red_paint\"", "", "missing", "materials.floor", "missing key `reflectance`"),
     ("ior zero", "\"ior\": 1.5", "\"ior\": 0", "out_of_range", "materials.glass.ior", "> 0"),
     ("ior is a glass's name", "\"ior\": 1.5", "\"ior\": \"N-BK7\"", "wrong_type", "materials.glass.ior", "a glass is {\"glass\": \"N-BK7\"}"),
@@ -181,7 +181,7 @@ const EDITS: &[Edit] = &[
     ("spot direction", "\"type\": \"point\"", "\"type\": \"spot\", \"direction\": [0, 0, 0], \"inner_degrees\": 10, \"outer_degrees\": 20", "degenerate", "lights[0].direction", "zero vector"),
     ("sun too wide", "\"type\": \"point\", \"position\": [0, 3, 0], \"intensity\": 1.0", "\"type\": \"directional\", \"direction\": [0, -1, 0], \"irradiance\": 1, \"angular_diameter_degrees\": 181", "out_of_range", "lights[0].angular_diameter_degrees", "[0, 180]"),
     ("beam without radius", "\"type\": \"point\", \"position\": [0, 3, 0], \"intensity\": 1.0", "\"type\": \"beam\", \"origin\": [0, 3, 0], \"direction\": [0, -1, 0], \"power\": 1", "missing", "lights[0]", "missing key `radius`"),
-    ("environment image", "{ \"radiance\": 0.05 }", "{ \"image\": \"sky.exr\" }", "unsupported", "environment.image", "not supported yet"),
+    ("environment image", "{ \"radiance\": 0.05 }", "{ \"image\": \"sky.exr\" }", "unknown_key", "environment.image", "an environment has radiance, name"),
     ("comment is a number", "{ \"radiance\": 0.05 }", "{ \"radiance\": 0.05, \"comment\": 3 }", "wrong_type", "environment.comment", "expected a string"),
 ];
 
@@ -208,11 +208,13 @@ const SHAPES: &[Whole] = &[
     ("index fractional", r#"{"type": "triangles", "positions": [0,0,0, 1,0,0, 0,1,0], "indices": [0, 1, 1.5]}"#, "wrong_type", "objects[0].shape.indices[2]", "integer"),
     ("triangles without area", r#"{"type": "triangles", "positions": [0,0,0, 1,0,0, 2,0,0], "indices": [0, 1, 2]}"#, "degenerate", "objects[0].shape", "area"),
     ("normals too few", r#"{"type": "triangles", "positions": [0,0,0, 1,0,0, 0,1,0], "indices": [0, 1, 2], "normals": [0,0,1]}"#, "wrong_type", "objects[0].shape.normals", "1 normals for 3 vertices"),
-    ("gltf mesh", r#"{"type": "mesh", "file": "a.GLB"}"#, "unsupported", "objects[0].shape.file", "not read yet"),
+    ("gltf mesh", r#"{"type": "mesh", "file": "a.GLB"}"#, "file_format", "objects[0].shape.file", "expected a path to a mesh (.obj, .ply)"),
     ("mesh of unknown type", r#"{"type": "mesh", "file": "a.stl"}"#, "file_format", "objects[0].shape.file", ".obj, .ply"),
     ("unknown surface", r#"{"type": "implicit", "surface": "tours"}"#, "unknown_name", "objects[0].shape.surface", "did you mean \"torus\"?"),
     ("implicit without surface", r#"{"type": "implicit", "radius": 1}"#, "missing", "objects[0].shape", "missing key `surface`"),
     ("fat torus", r#"{"type": "implicit", "surface": "torus", "major_radius": 1, "minor_radius": 1}"#, "out_of_range", "objects[0].shape.minor_radius", "less than `major_radius`"),
+    ("fat gyroid", r#"{"type": "implicit", "surface": "gyroid", "period": 1, "thickness": 0.25, "radius": 1}"#, "out_of_range", "objects[0].shape.thickness", "less than a quarter of `period`, 0.25"),
+    ("gyroid of too many periods", r#"{"type": "implicit", "surface": "gyroid", "period": 1, "thickness": 0.1, "radius": 101}"#, "out_of_range", "objects[0].shape.radius", "at most 100 periods, 100, found 101"),
     ("smooth union lengths", r#"{"type": "implicit", "surface": "smooth-union", "centers": [[0,0,0], [1,0,0]], "radii": [1]}"#, "wrong_type", "objects[0].shape.radii", "1 radii for 2 centres"),
     ("prism apex", r#"{"type": "prism", "apex_degrees": 180, "side": 1, "length": 1}"#, "out_of_range", "objects[0].shape.apex_degrees", "(0, 180)"),
     ("brilliant crown", r#"{"type": "brilliant", "radius": 1, "crown_degrees": 90}"#, "out_of_range", "objects[0].shape.crown_degrees", "(0, 90)"),

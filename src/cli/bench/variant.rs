@@ -2,16 +2,8 @@
 
 use super::{usage, work::Work};
 use crate::Result;
+use crate::scene::description::INTEGRATORS;
 use crate::scene::{Integrator, RenderSettings};
-
-/// The integrators by name.
-pub const INTEGRATORS: [(&str, Integrator); 5] = [
-    ("auto", Integrator::Auto),
-    ("path", Integrator::Path),
-    ("light", Integrator::Light),
-    ("merge", Integrator::Merge),
-    ("hero", Integrator::Hero),
-];
 
 const KEYS: [&str; 3] = ["integrator", "max-depth", "adaptive"];
 
@@ -118,8 +110,8 @@ fn with(variant: &Variant, key: &str, value: &str) -> Result<Variant> {
 
 /// An integrator by its name.
 pub fn integrator_by_name(place: &str, name: &str) -> Result<Integrator> {
-    let names = || INTEGRATORS.iter().map(|(known, _)| *known);
-    INTEGRATORS.iter().find(|(known, _)| *known == name).map(|(_, integrator)| *integrator).ok_or_else(|| {
+    let names = || INTEGRATORS.iter().map(|(known, ..)| *known);
+    INTEGRATORS.iter().find(|(known, ..)| *known == name).map(|(_, integrator, _)| *integrator).ok_or_else(|| {
         let known = names().collect::<Vec<_>>().join(", ");
         usage(format!("{place}: unknown integrator {name:?}; expected one of {known}")).nearest(name, names())
     })
@@ -127,7 +119,7 @@ pub fn integrator_by_name(place: &str, name: &str) -> Result<Integrator> {
 
 /// The name of an integrator.
 pub fn integrator_name(integrator: Integrator) -> &'static str {
-    INTEGRATORS.iter().find(|(_, known)| *known == integrator).map_or("unknown", |(name, _)| name)
+    INTEGRATORS.iter().find(|(_, known, _)| *known == integrator).map_or("unknown", |(name, ..)| name)
 }
 
 fn command(text: &str, scale: &str) -> Result<Variant> {

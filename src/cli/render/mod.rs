@@ -7,7 +7,7 @@ mod write;
 use super::process;
 use crate::film::Film;
 use crate::render::{Progress, blind_spot, render};
-use crate::scene::description::{self, Integrator, SceneDescription};
+use crate::scene::description::{self, SceneDescription};
 use crate::scene::{Compiled, SceneFeatures, compile};
 use crate::{Error, ErrorKind, Result};
 use progress::ProgressDisplay;
@@ -226,10 +226,10 @@ fn override_settings(description: &mut SceneDescription, args: &RenderArgs) -> R
     render.samples_per_pixel = args.spp.unwrap_or(render.samples_per_pixel);
     render.seed = args.seed.unwrap_or(render.seed);
     if let Some(name) = &args.integrator {
-        render.integrator = named("--integrator", name, &INTEGRATORS)?;
+        render.integrator = named("--integrator", name, description::INTEGRATORS)?;
     }
     if let Some(name) = &args.tonemap {
-        description.develop.tonemap = named("--tonemap", name, &TONEMAPS)?;
+        description.develop.tonemap = named("--tonemap", name, description::TONEMAPS)?;
     }
     if let Some(text) = &args.exposure {
         description.develop.exposure_ev = match text.as_str() {
@@ -270,23 +270,9 @@ fn check_memory(description: &SceneDescription) -> Result<()> {
     }
 }
 
-const INTEGRATORS: [(&str, Integrator); 5] = [
-    ("auto", Integrator::Auto),
-    ("path", Integrator::Path),
-    ("light", Integrator::Light),
-    ("merge", Integrator::Merge),
-    ("hero", Integrator::Hero),
-];
-
-const TONEMAPS: [(&str, description::Tonemap); 3] = [
-    ("srgb", description::Tonemap::Srgb),
-    ("exponential", description::Tonemap::Exponential),
-    ("reinhard", description::Tonemap::Reinhard),
-];
-
-fn named<T: Copy>(flag: &str, name: &str, known: &[(&str, T)]) -> Result<T> {
-    let names = known.iter().map(|(n, _)| *n);
-    known.iter().find(|(n, _)| *n == name).map(|(_, value)| *value).ok_or_else(|| {
+fn named<T: Copy>(flag: &str, name: &str, known: &[(&str, T, &str)]) -> Result<T> {
+    let names = known.iter().map(|(n, ..)| *n);
+    known.iter().find(|(n, ..)| *n == name).map(|(_, value, _)| *value).ok_or_else(|| {
         let list = names.clone().collect::<Vec<_>>().join(", ");
         usage(format!("{flag} {name}: expected one of {list}")).nearest(name, names)
     })

@@ -3,14 +3,14 @@
 use super::{Format, RenderArgs, extension, is_stdout, report};
 use crate::Result;
 use crate::cli::write_data;
-use crate::develop::{self, Tonemap};
+use crate::develop;
 use crate::film::Film;
 use crate::io::exr::Attributes;
 use crate::io::output::write_atomically;
 use crate::io::{exr, png};
 use crate::render::{Rendering, Statistics};
 use crate::scene::Compiled;
-use crate::scene::description::{self, SceneDescription};
+use crate::scene::description::SceneDescription;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -64,12 +64,7 @@ impl Written<'_> {
 
     fn png(&self, film: &Film) -> Result<Vec<u8>> {
         let settings = &self.description.develop;
-        let tonemap = match settings.tonemap {
-            description::Tonemap::Srgb => Tonemap::Srgb,
-            description::Tonemap::Exponential => Tonemap::Exponential,
-            description::Tonemap::Reinhard => Tonemap::Reinhard,
-        };
-        let picture = develop::develop(&film.to_xyz(), film.width(), settings.exposure_ev, tonemap);
+        let picture = develop::develop(&film.to_xyz(), film.width(), settings.exposure_ev, settings.tonemap);
         if self.args.verbose {
             let outside = picture.out_of_gamut * 100.0;
             eprintln!("developed at {:+.2} EV; {outside:.2} % of the pixels were outside sRGB", picture.exposure_ev);
