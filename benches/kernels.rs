@@ -3,7 +3,9 @@
 //! Each is timed over a few hundred different arguments, so that no branch is always taken alike; criterion's "elem/s" are
 //! calls a second.
 
-use abbe::bsdf::{Bsdf, Conductor, Dielectric, Diffuse, Incidence, Indices, Lanes, Mirror};
+use abbe::bsdf::{
+    Branching, Bsdf, Carried, Conductor, Dielectric, Diffuse, Incidence, Indices, Lanes, Mirror, NEVER, Parting,
+};
 use abbe::color::{Observer, illuminant};
 use abbe::film::{CameraTile, Film, Filter, Sensor, Splat};
 use abbe::geometry::Frame;
@@ -112,6 +114,8 @@ fn bsdfs(criterion: &mut Criterion) {
     let points = points();
     let frame = Frame { geometric: DVec3::Z, shading: Vec3::Z };
     let grey = SampledSpectrum::splat(0.5);
+    let branching = Branching { parting: Parting::Ways(2), least_share: NEVER };
+    let carried = Carried::new(0, branching);
     let kinds = [
         ("diffuse", Bsdf::Diffuse(Diffuse { reflectance: grey })),
         ("mirror", Bsdf::Mirror(Mirror { reflectance: grey })),
@@ -119,7 +123,7 @@ fn bsdfs(criterion: &mut Criterion) {
     ];
     for (name, bsdf) in kinds {
         each(&mut group, &format!("{name}: sample"), &points, |u| {
-            bsdf.sample(&frame, cosine_hemisphere([u[0], u[1]]), [u[2], u[3]])
+            bsdf.sample(&frame, cosine_hemisphere([u[0], u[1]]), &carried, [u[2], u[3]], u[4])
         });
     }
     let (_, diffuse) = kinds[0];
@@ -133,7 +137,7 @@ fn bsdfs(criterion: &mut Criterion) {
         let boundary = Dielectric { from: Indices::AIR, to };
         each(&mut group, &format!("dielectric, {name}: choice and direction"), &points, |u| {
             let incidence = Incidence::new(-cosine_hemisphere([u[0], u[1]]), DVec3::Z);
-            let sample = boundary.divide::<true>(&incidence, Lanes::Shared, grey).choose(u[2]);
+            let sample = boundary.divide(&incidence, Lanes::Shared, grey).choose(u[2]);
             let direction =
                 if sample.refracted { boundary.refracted(&incidence, 3) } else { Some(incidence.reflected()) };
             (sample.weight, direction)

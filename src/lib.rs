@@ -14,7 +14,7 @@
 //! ```
 //!
 //! ```
-//! use abbe::scene::{SceneFeatures, compile, description};
+//! use abbe::scene::{compile, description};
 //! # fn main() -> abbe::Result<()> {
 //! let text = r#"{
 //!     "camera": { "type": "perspective", "from": [0, 0, 4], "to": [0, 0, 0] },
@@ -26,8 +26,7 @@
 //! }"#;
 //! let parsed = description::parse_str(text, "example.json".as_ref())?;
 //! let compiled = compile(&parsed.description)?;
-//! let needed = SceneFeatures { dispersion: false, interiors: false };
-//! let render = abbe::render::render(&compiled.scene, &compiled.render, &compiled.film, needed, &mut |_| true);
+//! let render = abbe::render::render(&compiled.scene, &compiled.render, &compiled.film, &mut |_| true);
 //! let film = &render.film;
 //! assert_eq!((render.statistics.camera_paths, film.non_finite_samples), (256, 0));
 //! let picture = abbe::develop::develop(&film.to_xyz(), film.width(), None, abbe::develop::Tonemap::Srgb);

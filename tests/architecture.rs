@@ -89,7 +89,11 @@ const EPSILONS: &[(&str, &str, &str)] = &[
     ("bsdf/microfacet.rs", "const SMOOTHEST: f64 = 1e-4;", "a slope"),
     ("bsdf/rough_dielectric.rs", "const LEAST_CONTRAST: f64 = 1e-9;", "relative to the index"),
     ("geometry/implicit/mod.rs", "step.length() <= 1e-6 * p.length()", "relative to the point"),
-    ("render/mod.rs", "const SHORTEST_PASS: f64 = 0.001;", "seconds; decides how often to look up, no bit of the film"),
+    (
+        "render/driver/run.rs",
+        "const SHORTEST_PASS: f64 = 0.001;",
+        "seconds; decides how often to look up, no bit of the film",
+    ),
 ];
 
 /// A source file without comments, string contents and test code; line breaks stay where they are.

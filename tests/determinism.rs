@@ -67,7 +67,7 @@ fn every_object_and_light_shows_in_the_film() {
 fn any_number_of_threads_gives_the_same_bits() {
     let folder = SceneFolder::new("threads");
     let compiled = folder.compile(&everything());
-    let mut films = [1, 2, 8].map(|n| threads(n, || render_all(&compiled, NEEDED))).into_iter();
+    let mut films = [1, 2, 8].map(|n| threads(n, || render_all(&compiled))).into_iter();
     let (one, statistics) = films.next().unwrap();
     for (film, others) in films {
         assert_same_bits(&one, &film, 1.0, "threads");
@@ -89,8 +89,8 @@ fn check_features(name: &str, scene: &Value, needed: SceneFeatures) {
     let folder = SceneFolder::new(name);
     let compiled = folder.compile(scene);
     assert_eq!(compiled.scene.features, needed, "{name}");
-    let (plain, statistics) = render_all(&compiled, NEEDED);
-    let (forced, forced_statistics) = render_all(&compiled, SceneFeatures::ALL);
+    let (plain, statistics) = render_all(&compiled);
+    let (forced, forced_statistics) = render_forced(&compiled);
     assert_same_bits(&plain, &forced, 1.0, name);
     assert_eq!((plain, counted(&statistics)), (forced, counted(&forced_statistics)), "{name}");
 }
@@ -206,7 +206,7 @@ fn passes_change_no_bit() {
             std::thread::sleep(delay);
             true
         };
-        let film = render(&compiled.scene, &compiled.render, &compiled.film, NEEDED, proceed).film;
+        let film = render(&compiled.scene, &compiled.render, &compiled.film, proceed).film;
         (film, seen)
     };
     let (slow, slow_passes) = with_delay(Duration::from_millis(310));
@@ -225,7 +225,7 @@ fn an_interrupted_render_is_one_of_fewer_samples() {
     scene["render"]["samples_per_pixel"] = json!(16);
     let compiled = folder.compile(&scene);
     let stop = &mut |progress: Progress| progress.samples < 8;
-    let Rendering { film, statistics, .. } = render(&compiled.scene, &compiled.render, &compiled.film, NEEDED, stop);
+    let Rendering { film, statistics, .. } = render(&compiled.scene, &compiled.render, &compiled.film, stop);
     assert!(!statistics.complete && film.camera_paths() > 0 && film.light_paths() > 0);
     scene["render"]["samples_per_pixel"] = json!(8);
     assert_same_bits(&film, &folder.film(&scene), 1.0, "interrupted");

@@ -4,7 +4,9 @@
 #[path = "common/render.rs"]
 mod common;
 
-use abbe::bsdf::{Bsdf, Conductor, Dielectric, Ggx, Indices, Lanes, RoughConductor, RoughDielectric, RoughSample};
+use abbe::bsdf::{
+    Bsdf, Conductor, Density, Dielectric, Ggx, Indices, Lanes, Outgoing, RoughConductor, RoughDielectric,
+};
 use abbe::film::Film;
 use abbe::geometry::Frame;
 use abbe::math;
@@ -57,11 +59,12 @@ fn reciprocity() {
             let u = sobol.group(i, 0);
             let wo = direction(89.0 * f64::from(u[3]), 0.3);
             let sample = boundary.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]);
-            let Some(RoughSample::Together { sample, crosses, .. }) = sample else { continue };
-            let there = boundary.eval(&frame(), wo, sample.wi).lanes();
+            let Some((sample, wi)) = sample.and_then(|sample| Some((sample, sample.wi.shared()?))) else { continue };
+            let crosses = sample.crosses;
+            let there = boundary.eval(&frame(), wo, wi).lanes();
             let (reversed, turned) = boundary.reversed(&frame(), crosses);
-            let back = reversed.eval(&turned, sample.wi, wo).lanes();
-            let (cos_i, cos_o) = (frame().cos_shading(sample.wi).abs(), frame().cos_shading(wo).abs());
+            let back = reversed.eval(&turned, wi, wo).lanes();
+            let (cos_i, cos_o) = (frame().cos_shading(wi).abs(), frame().cos_shading(wo).abs());
             for k in 0..LANES {
                 let (from, to) = (boundary.boundary.from.eta[k], boundary.boundary.to.eta[k]);
                 let ratio = if crosses { (to * to / (from * from)) as f32 } else { 1.0 };
@@ -102,7 +105,7 @@ fn furnace() {
                     let boundary = glass(alpha, Lanes::Only(lane), leaving);
                     energy(4096, 7, |u| {
                         let sample = boundary.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]);
-                        let Some(RoughSample::Together { sample, .. }) = sample else { return 0.0 };
+                        let Some(sample) = sample else { return 0.0 };
                         let lit = sample.weight.lane(lane);
                         assert!(lit <= 1.0 + 1e-5, "{alpha} {degrees}: a weight of {lit}");
                         lit
@@ -113,8 +116,8 @@ fn furnace() {
                         let hero = (u[3] * LANES as f32) as usize;
                         let boundary = RoughDielectric { hero, ..glass(alpha, Lanes::Shared, leaving) };
                         let sample = boundary.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]);
-                        let Some(RoughSample::Together { sample, odds, .. }) = sample else { return 0.0 };
-                        let (lit, sum) = (sample.weight.lane(lane), odds.sum());
+                        let Some(sample) = sample else { return 0.0 };
+                        let (lit, sum) = (sample.weight.lane(lane), sample.odds.unwrap().sum());
                         assert!((sum / LANES as f32 - 1.0).abs() < 1e-4, "odds add up to {sum}");
                         assert!(lit <= LANES as f32 * 1.001, "{alpha} {degrees}: a weight of {lit}");
                         lit
@@ -143,21 +146,18 @@ fn furnace_where_lanes_part() {
         for leaving in [false, true] {
             let parting = RoughDielectric { parts: true, ..glass(alpha, Lanes::Shared, leaving) };
             for lane in [0, 7] {
-                let parted =
-                    energy(8192, 9, |u| match parting.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]) {
-                        None => 0.0,
-                        Some(RoughSample::Together { sample, .. }) => sample.weight.lane(lane),
-                        Some(RoughSample::Parted { directions, weight, own_pdf }) => {
-                            assert_eq!(directions[lane].is_some(), own_pdf[lane] > 0.0);
-                            weight.lane(lane)
-                        }
-                    });
+                let parted = energy(8192, 9, |u| {
+                    let sample = parting.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]);
+                    let Some(sample) = sample else { return 0.0 };
+                    if let (Outgoing::PerLane(directions), Density::PerLane(pdf)) = (sample.wi, sample.pdf) {
+                        assert_eq!(directions[lane].is_some(), pdf.lane(lane) > 0.0);
+                    }
+                    sample.weight.lane(lane)
+                });
                 let boundary = glass(alpha, Lanes::Only(lane), leaving);
                 let alone = energy(8192, 10, |u| {
-                    match boundary.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]) {
-                        Some(RoughSample::Together { sample, .. }) => sample.weight.lane(lane),
-                        _ => 0.0,
-                    }
+                    let sample = boundary.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]);
+                    sample.map_or(0.0, |sample| sample.weight.lane(lane))
                 });
                 assert!((parted - alone).abs() < 5e-3, "{alpha} {degrees} {leaving} {lane}: {parted} {alone}");
             }
@@ -177,10 +177,15 @@ fn metals() {
             let perfect = RoughConductor { facets: Conductor { eta, k, ..metal(0.1).facets }, ggx: Ggx::new(alpha) };
             let e = energy(8192, 3, |u| {
                 let Some(sample) = perfect.sample(&frame(), wo, [u[0], u[1]]) else { return 0.0 };
-                let pdf = perfect.pdf(&frame(), wo, sample.wi);
-                let value = perfect.eval(&frame(), wo, sample.wi).lane(0);
+                let wi = sample.wi.shared().unwrap();
+                let pdf = perfect.pdf(&frame(), wo, wi);
+                let value = perfect.eval(&frame(), wo, wi).lane(0);
                 let tolerance = 1e-3 + 1e-5 / alpha;
-                assert!((pdf / sample.pdf.unwrap() - 1.0).abs() < tolerance, "{alpha}: {pdf} {:?}", sample.pdf);
+                assert!(
+                    (pdf / sample.pdf.shared().unwrap() - 1.0).abs() < tolerance,
+                    "{alpha}: {pdf} {:?}",
+                    sample.pdf
+                );
                 assert!((value / pdf - sample.weight.lane(0)).abs() < 1e-3, "{alpha}");
                 sample.weight.lane(0)
             });

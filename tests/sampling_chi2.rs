@@ -4,7 +4,7 @@
 #[path = "common/render.rs"]
 mod common;
 
-use abbe::bsdf::{Conductor, Dielectric, Diffuse, Ggx, Indices, Lanes, RoughConductor, RoughDielectric, RoughSample};
+use abbe::bsdf::{Conductor, Dielectric, Diffuse, Ggx, Indices, Lanes, RoughConductor, RoughDielectric};
 use abbe::film::Filter;
 use abbe::geometry::{Frame, sample_triangle};
 use abbe::math;
@@ -137,13 +137,14 @@ fn diffuse() {
     for (what, shading) in [("diffuse", geometric), ("diffuse, tilted normal", tilted)] {
         let frame = Frame { geometric, shading: shading.as_vec3() };
         let wo = (geometric + DVec3::new(0.3, 0.0, 0.0)).normalize().as_vec3();
-        let sample = |i| bsdf.sample(&frame, wo, pair(i, 0)).map(|s| s.wi);
+        let sample = |i| bsdf.sample(&frame, wo, pair(i, 0)).and_then(|s| s.wi.shared());
         test_directions(what, shading, 0.0, sample, |d| bsdf.pdf(&frame, wo, d));
         for i in 0..1000 {
             let Some(s) = bsdf.sample(&frame, wo, pair(i, 0)) else { continue };
-            let pdf = bsdf.pdf(&frame, wo, s.wi);
-            assert!((s.pdf.unwrap() / pdf - 1.0).abs() < 1e-4);
-            let weight = bsdf.eval(&frame, wo, s.wi).lanes()[0] / pdf;
+            let wi = s.wi.shared().unwrap();
+            let pdf = bsdf.pdf(&frame, wo, wi);
+            assert!((s.pdf.shared().unwrap() / pdf - 1.0).abs() < 1e-4);
+            let weight = bsdf.eval(&frame, wo, wi).lanes()[0] / pdf;
             assert!((s.weight.lanes()[0] - weight).abs() < 1e-4, "{:?} {weight}", s.weight);
         }
     }
@@ -407,10 +408,7 @@ fn dielectric_choice() {
             let one = SampledSpectrum::ONE.only(lane);
             let reflected = (0..SAMPLES / 10)
                 .filter(|&i| {
-                    !boundary
-                        .divide::<true>(&incidence, Lanes::Only(lane), one)
-                        .choose(uniform(i, lane as u64))
-                        .refracted
+                    !boundary.divide(&incidence, Lanes::Only(lane), one).choose(uniform(i, lane as u64)).refracted
                 })
                 .count() as u64;
             let f = common::fresnel(sin, 1.0, glass.eta[lane]);
@@ -438,10 +436,7 @@ fn rough_surfaces() {
         let sample = |i| {
             let hero = (uniform(i, 3) * 8.0) as usize;
             let u = [uniform(i, 0), uniform(i, 1), uniform(i, 2)];
-            match (RoughDielectric { hero, ..bsdf }).sample(&frame, wo, SampledSpectrum::ONE, u)? {
-                RoughSample::Together { sample, .. } => Some(sample.wi),
-                RoughSample::Parted { .. } => None,
-            }
+            RoughDielectric { hero, ..bsdf }.sample(&frame, wo, SampledSpectrum::ONE, u)?.wi.shared()
         };
         let pdf = |wi| {
             let own = bsdf.lobe(&frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| lobe.own_pdf);
@@ -451,6 +446,6 @@ fn rough_surfaces() {
     }
     let (eta, k) = (SampledSpectrum::splat(0.2), SampledSpectrum::splat(3.0));
     let metal = RoughConductor { facets: Conductor { eta, k, eta_outside: [1.0; 8] }, ggx: Ggx::new(0.4) };
-    let sample = |i| metal.sample(&frame, wo, pair(i, 0)).map(|s| s.wi);
+    let sample = |i| metal.sample(&frame, wo, pair(i, 0)).and_then(|s| s.wi.shared());
     test_directions("rough metal", geometric, -1.0, sample, |wi| metal.pdf(&frame, wo, wi));
 }

@@ -32,7 +32,7 @@ fn a_minimal_scene_has_the_documented_defaults() {
             focus_distance: 5.0,
             at: "camera".into(),
         },
-        film: FilmDescription { width: 3, height: 2, filter: FilterKind::Box, filter_radius: 0.5 },
+        film: FilmDescription { width: 3, height: 2, filter: FilterKind::Box, filter_radius: 0.5, observer: "1931-2".into() },
         render: RenderDescription { samples_per_pixel: 64, max_depth: 64, seed: 0, integrator: Integrator::Auto },
         spectra: vec![],
         materials: vec![],

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use abbe::render::{Rendering, render};
+use abbe::scene::compile;
 use abbe::scene::description::parse_file;
-use abbe::scene::{SceneFeatures, compile};
 
 fn scenes() -> Vec<PathBuf> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes");
@@ -27,9 +27,8 @@ fn every_scene_renders() {
         description.render.samples_per_pixel = 4;
         let compiled = compile(&description).unwrap_or_else(|e| panic!("{e}"));
 
-        let needed = SceneFeatures { dispersion: false, interiors: false };
         let Rendering { film, statistics, .. } =
-            render(&compiled.scene, &compiled.render, &compiled.film, needed, &mut |_| true);
+            render(&compiled.scene, &compiled.render, &compiled.film, &mut |_| true);
         assert!(statistics.complete, "{name}");
         assert_eq!(film.non_finite_samples, 0, "{name}");
         let (underflows, rays) = (statistics.counters.medium_underflows, statistics.counters.rays);

@@ -5,7 +5,7 @@ mod common;
 
 use abbe::film::Film;
 use abbe::render::{Progress, Rendering, blind_spot, render};
-use abbe::scene::{Compiled, Integrator, SceneFeatures};
+use abbe::scene::{Compiled, Integrator};
 use common::{Estimate, compile_json, sidak, with};
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
@@ -33,8 +33,7 @@ fn spiky() -> Value {
 }
 
 fn run(compiled: &Compiled, proceed: &mut dyn FnMut(Progress) -> bool) -> Rendering {
-    let needed = SceneFeatures { dispersion: false, interiors: false };
-    let rendering = render(&compiled.scene, &compiled.render, &compiled.film, needed, proceed);
+    let rendering = render(&compiled.scene, &compiled.render, &compiled.film, proceed);
     assert_eq!(rendering.film.non_finite_samples, 0);
     rendering
 }

@@ -20,9 +20,10 @@ pub struct Conductor {
 
 impl Conductor {
     /// The mirror direction, weighted lane by lane.
+    #[inline(always)]
     pub fn sample(&self, frame: &Frame, wo: Vec3) -> Option<BsdfSample> {
         let cos_theta = frame.geometric.dot(wo.as_dvec3().normalize()).abs();
-        Some(BsdfSample { wi: mirror_direction(frame, wo), weight: self.reflectance(cos_theta), pdf: None })
+        Some(BsdfSample::mirrored(mirror_direction(frame, wo), self.reflectance(cos_theta)))
     }
 
     /// Reflected share of unpolarised light that arrives with this cosine, in each lane.

@@ -1,5 +1,8 @@
-//! The smooth boundary between two transparent media. The only place where lanes can part.
+//! The smooth boundary between two transparent media.
 
+use super::carried::{Carried, Lanes};
+use super::{Aside, BsdfSample, Density, Outgoing};
+use crate::geometry::Frame;
 use crate::optics::{self, Refraction};
 use crate::spectrum::{LANES, SampledSpectrum};
 use glam::{DVec3, Vec3};
@@ -16,17 +19,6 @@ pub struct Indices {
 impl Indices {
     /// Air, and empty space.
     pub const AIR: Self = Self { eta: [1.0; LANES], dispersive: false };
-}
-
-/// Which lanes of a path are alive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Lanes {
-    /// All share the ray.
-    Shared,
-    /// They have parted and each goes its own way with the same random numbers; this is one of those ways.
-    Bundled(usize),
-    /// They have parted and only this one goes on: it stands for all.
-    Only(usize),
 }
 
 /// A boundary that a path meets, from the medium `from` towards `to`.
@@ -75,10 +67,10 @@ pub struct Division {
     pub reflected: f32,
 }
 
-/// What becomes of a path at the boundary.
+/// A choice between reflection and refraction.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DielectricSample {
-    /// Whether it crosses; see [`Dielectric::refracted`]. Otherwise it is [`Incidence::reflected`].
+pub struct DielectricChoice {
+    /// Whether the path crosses; see [`Dielectric::refracted`]. Otherwise it goes on along [`Incidence::reflected`].
     pub refracted: bool,
     /// Share of the flux that each lane carries on, divided by the probability of the choice.
     pub weight: SampledSpectrum,
@@ -95,16 +87,43 @@ impl Dielectric {
         self.from.dispersive || self.to.dispersive
     }
 
+    /// Chooses between reflection and refraction by `u`, or takes both where the path forks: the reflection is put aside then.
+    /// Where lanes share the ray and the boundary is dispersive, refraction gives a direction to each lane that goes on.
+    #[inline]
+    pub fn sample(&self, frame: &Frame, wo: Vec3, carried: &Carried, u: f32) -> Option<BsdfSample> {
+        let incidence = Incidence::new(-wo, frame.geometric);
+        let division = self.divide(&incidence, carried.lanes, carried.throughput);
+        let forks = carried.forks(division.reflected);
+        let aside = forks.then(|| Aside { wi: incidence.reflected(), weight: division.reflectance });
+        let choice = match forks {
+            true => DielectricChoice { refracted: true, weight: division.transmittance() },
+            false => division.choose(u),
+        };
+        let wi = if choice.refracted {
+            self.outgoing(&incidence, carried)?
+        } else {
+            Outgoing::Shared(incidence.reflected())
+        };
+        let (weight, crosses) = (choice.weight, choice.refracted);
+        Some(BsdfSample { wi, weight, pdf: Density::Delta, crosses, odds: None, aside })
+    }
+
+    /// Where refraction sends the lanes that go on.
+    fn outgoing(&self, incidence: &Incidence, carried: &Carried) -> Option<Outgoing> {
+        if carried.lanes != Lanes::Shared || !self.is_dispersive() {
+            let lane = carried.lanes.single().unwrap_or(0);
+            return self.refracted(incidence, lane).map(Outgoing::Shared);
+        }
+        let mut directions = [None; LANES];
+        carried.ways().for_each(|lane| directions[lane] = self.refracted(incidence, lane));
+        Some(Outgoing::PerLane(directions))
+    }
+
     /// How flux is divided between reflection and refraction.
-    pub fn divide<const DISPERSION: bool>(
-        &self,
-        incidence: &Incidence,
-        lanes: Lanes,
-        throughput: SampledSpectrum,
-    ) -> Division {
+    pub fn divide(&self, incidence: &Incidence, lanes: Lanes, throughput: SampledSpectrum) -> Division {
         let f = |lane: usize| reflectance(optics::refract(incidence.cos_theta, self.from.eta[lane], self.to.eta[lane]));
         let (reflectance, reflected) = match lanes {
-            Lanes::Shared if DISPERSION && self.is_dispersive() => {
+            Lanes::Shared if self.is_dispersive() => {
                 let reflectance = SampledSpectrum::from_fn(f);
                 let total = throughput.sum();
                 let q = if total > 0.0 { (throughput * reflectance).sum() / total } else { reflectance.mean() };
@@ -142,12 +161,12 @@ impl Division {
     /// (1 − Fₖ) / (1 − q): no lane is lost, and lanes beyond their critical angle have weight 0 on the other side. A lane on
     /// its own compares `u` with its own F, so that its weight is 1 whatever happens, and lanes with the same `u` part only
     /// where their F differ.
-    pub fn choose(&self, u: f32) -> DielectricSample {
+    pub fn choose(&self, u: f32) -> DielectricChoice {
         let q = self.reflected;
         if u < q {
-            DielectricSample { refracted: false, weight: self.reflectance * (1.0 / q) }
+            DielectricChoice { refracted: false, weight: self.reflectance * (1.0 / q) }
         } else {
-            DielectricSample { refracted: true, weight: self.transmittance() * (1.0 / (1.0 - q)) }
+            DielectricChoice { refracted: true, weight: self.transmittance() * (1.0 / (1.0 - q)) }
         }
     }
 }
@@ -181,7 +200,7 @@ mod tests {
                     let (mut reflected, mut refracted) = (0.0, 0.0);
                     for i in 0..n {
                         let u = (i as f32 + 0.5) / n as f32;
-                        let s = boundary.divide::<true>(&incidence, lanes, beta).choose(u);
+                        let s = boundary.divide(&incidence, lanes, beta).choose(u);
                         let w = f64::from(s.weight.lane(lane)) / f64::from(n);
                         if !s.refracted {
                             reflected += w;
@@ -197,19 +216,6 @@ mod tests {
                     assert!((refracted - (1.0 - f)).abs() < 5e-3 * (1.0 - f).max(0.1), "{degrees} {lanes:?}");
                 }
             }
-        }
-    }
-
-    /// Forcing dispersion on changes no bit where indices are constant.
-    #[test]
-    fn constant_indices_take_the_plain_path() {
-        let boundary = Dielectric { from: Indices::AIR, to: Indices { eta: [1.5; LANES], dispersive: false } };
-        for i in 0..100 {
-            let incidence = Incidence::new(Vec3::new(0.01 * i as f32, 0.1, -1.0).normalize(), DVec3::Z);
-            let u = (i as f32 * 0.37).fract();
-            let beta = SampledSpectrum::from_fn(|k| k as f32);
-            let a = boundary.divide::<true>(&incidence, Lanes::Shared, beta).choose(u);
-            assert_eq!(a, boundary.divide::<false>(&incidence, Lanes::Shared, beta).choose(u));
         }
     }
 }

@@ -25,10 +25,11 @@ impl Diffuse {
     }
 
     /// Draws in proportion to cos θ about the shading normal.
+    #[inline(always)]
     pub fn sample(&self, frame: &Frame, wo: Vec3, u: [f32; 2]) -> Option<BsdfSample> {
         let wi = frame.world_from_local(cosine_hemisphere(u));
         let pdf = frame.cos_shading(wi) * FRAC_1_PI;
-        (pdf > 0.0 && frame.same_side(wo, wi)).then_some(BsdfSample { wi, weight: self.reflectance, pdf: Some(pdf) })
+        (pdf > 0.0 && frame.same_side(wo, wi)).then_some(BsdfSample::reflected(wi, self.reflectance, pdf))
     }
 
     /// cos θ_i / π.

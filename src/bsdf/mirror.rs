@@ -15,8 +15,9 @@ pub struct Mirror {
 
 impl Mirror {
     /// The mirror direction.
+    #[inline(always)]
     pub fn sample(&self, frame: &Frame, wo: Vec3) -> Option<BsdfSample> {
-        Some(BsdfSample { wi: mirror_direction(frame, wo), weight: self.reflectance, pdf: None })
+        Some(BsdfSample::mirrored(mirror_direction(frame, wo), self.reflectance))
     }
 }
 

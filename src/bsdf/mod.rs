@@ -1,8 +1,10 @@
 //! Scattering at a surface, evaluated at a path's wavelengths: one file a model, each with `eval`, `sample`, `pdf`.
 //!
 //! Directions point away from the surface; `wo` is where the path came from. Everything spectral is resolved before
-//! sampling starts, so a [`Bsdf`] is a small Copy value. Throughput weights are f · cos θ / pdf.
+//! sampling starts, so a [`Bsdf`] is a small Copy value. Throughput weights are f · cos θ / pdf. Values at transparent
+//! boundaries are shares of flux: see [`Bsdf::radiance_change`].
 
+mod carried;
 mod conductor;
 mod dielectric;
 mod diffuse;
@@ -11,19 +13,20 @@ mod mirror;
 mod rough_conductor;
 mod rough_dielectric;
 
+pub use carried::{BASELINE_LANES, Branching, Carried, Lanes, NEVER, Parting, lane_of_way};
 pub use conductor::Conductor;
-pub use dielectric::{Dielectric, DielectricSample, Division, Incidence, Indices, Lanes};
+pub use dielectric::{Dielectric, DielectricChoice, Division, Incidence, Indices};
 pub use diffuse::Diffuse;
 pub use microfacet::{Ggx, lit_of_visible};
 pub use mirror::Mirror;
 pub use rough_conductor::RoughConductor;
-pub use rough_dielectric::{Lobe, RoughDielectric, RoughSample};
+pub use rough_dielectric::{Lobe, RoughDielectric};
 
 use crate::geometry::Frame;
-use crate::spectrum::SampledSpectrum;
+use crate::spectrum::{LANES, SampledSpectrum};
 use glam::Vec3;
 
-/// A surface at a hit. Smooth boundaries of transparent volumes are no part of it, as they are met by [`Dielectric`].
+/// A surface at a hit.
 #[derive(Debug, Clone, Copy)]
 pub enum Bsdf {
     /// Lambertian.
@@ -34,68 +37,201 @@ pub enum Bsdf {
     Conductor(Conductor),
     /// Rough metal.
     RoughConductor(RoughConductor),
+    /// Smooth boundary of a transparent volume.
+    Dielectric(Dielectric),
     /// Rough boundary of a transparent volume.
     RoughDielectric(RoughDielectric),
 }
 
-/// A sampled direction.
+/// Where a path goes on.
+#[derive(Debug, Clone, Copy)]
+pub enum Outgoing {
+    /// All lanes take one direction.
+    Shared(Vec3),
+    /// Each lane takes its own; `None` if nothing of it goes on.
+    PerLane([Option<Vec3>; LANES]),
+}
+
+/// Density of a sampled direction in solid angle.
+#[derive(Debug, Clone, Copy)]
+pub enum Density {
+    /// The direction is the only one possible.
+    Delta,
+    /// All lanes have the same.
+    Shared(f32),
+    /// Each lane has its own.
+    PerLane(SampledSpectrum),
+}
+
+impl Outgoing {
+    /// The direction that all lanes take, if they take one.
+    pub fn shared(self) -> Option<Vec3> {
+        if let Self::Shared(wi) = self { Some(wi) } else { None }
+    }
+}
+
+impl Density {
+    /// The density that all lanes have in common; `None` for a delta, and where each has its own.
+    pub fn shared(self) -> Option<f32> {
+        if let Self::Shared(pdf) = self { Some(pdf) } else { None }
+    }
+}
+
+/// A sampled direction, or one for each lane.
 #[derive(Debug, Clone, Copy)]
 pub struct BsdfSample {
     /// Direction away from the surface.
-    pub wi: Vec3,
+    pub wi: Outgoing,
     /// f · |cos θ| / pdf.
     pub weight: SampledSpectrum,
-    /// Density in solid angle; `None` for a delta distribution.
-    pub pdf: Option<f32>,
+    /// Density of the direction.
+    pub pdf: Density,
+    /// Whether it lies on the other side of the surface.
+    pub crosses: bool,
+    /// The odds of the lanes after it, if they have changed; see [`Carried::odds`].
+    pub odds: Option<SampledSpectrum>,
+    /// A direction that is followed besides, where the path forks.
+    pub aside: Option<Aside>,
+}
+
+/// A second direction of a path that forks.
+#[derive(Debug, Clone, Copy)]
+pub struct Aside {
+    /// Direction away from the surface, on the side where the path came from.
+    pub wi: Vec3,
+    /// Share of each lane's flux.
+    pub weight: SampledSpectrum,
+}
+
+/// A scattering model at a pair of directions.
+#[derive(Debug, Clone, Copy)]
+pub struct Evaluation {
+    /// f · |cos θ_i|, per sr.
+    pub value: SampledSpectrum,
+    /// Density by which a sample of this direction is balanced against other techniques.
+    pub pdf: Density,
+    /// Whether the directions lie on different sides of the surface.
+    pub crosses: bool,
+}
+
+impl BsdfSample {
+    /// A direction of reflection that was drawn with a density in solid angle.
+    #[inline(always)]
+    pub fn reflected(wi: Vec3, weight: SampledSpectrum, pdf: f32) -> Self {
+        let (wi, pdf) = (Outgoing::Shared(wi), Density::Shared(pdf));
+        Self { wi, weight, pdf, crosses: false, odds: None, aside: None }
+    }
+
+    /// The only direction of reflection.
+    #[inline(always)]
+    pub fn mirrored(wi: Vec3, weight: SampledSpectrum) -> Self {
+        Self { wi: Outgoing::Shared(wi), weight, pdf: Density::Delta, crosses: false, odds: None, aside: None }
+    }
 }
 
 impl Bsdf {
     /// Whether the distribution is a delta, for which `eval` and `pdf` are 0.
     pub fn is_specular(&self) -> bool {
-        matches!(self, Self::Mirror(_) | Self::Conductor(_))
+        match self {
+            Self::Mirror(_) | Self::Conductor(_) | Self::Dielectric(_) => true,
+            Self::Diffuse(_) | Self::RoughConductor(_) | Self::RoughDielectric(_) => false,
+        }
     }
 
     /// Whether it has a lobe about the direction of reflection or refraction, wide or narrow.
     pub fn is_rough(&self) -> bool {
-        matches!(self, Self::RoughConductor(_) | Self::RoughDielectric(_))
+        match self {
+            Self::RoughConductor(_) | Self::RoughDielectric(_) => true,
+            Self::Diffuse(_) | Self::Mirror(_) | Self::Conductor(_) | Self::Dielectric(_) => false,
+        }
+    }
+
+    /// Whether light passes through the surface.
+    pub fn transmits(&self) -> bool {
+        match self {
+            Self::Dielectric(_) | Self::RoughDielectric(_) => true,
+            Self::Diffuse(_) | Self::Mirror(_) | Self::Conductor(_) | Self::RoughConductor(_) => false,
+        }
     }
 
     /// f · |cos θ_i|, per sr, for unit directions.
     pub fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
         match self {
             Self::Diffuse(b) => b.eval(frame, wo, wi),
-            Self::Mirror(_) | Self::Conductor(_) => SampledSpectrum::ZERO,
+            Self::Mirror(_) | Self::Conductor(_) | Self::Dielectric(_) => SampledSpectrum::ZERO,
             Self::RoughConductor(b) => b.eval(frame, wo, wi),
             Self::RoughDielectric(b) => b.eval(frame, wo, wi),
         }
     }
 
-    /// Draws a direction at an opaque surface; at a boundary, where lanes have something to say, see
-    /// [`RoughDielectric::sample`].
-    pub fn sample(&self, frame: &Frame, wo: Vec3, u: [f32; 2]) -> Option<BsdfSample> {
+    /// Draws a direction by two random numbers, and what kind of scattering takes place by a third, for the lanes that the
+    /// path carries. `None` if the path ends.
+    #[inline(always)]
+    pub fn sample(
+        &self,
+        frame: &Frame,
+        wo: Vec3,
+        carried: &Carried,
+        direction: [f32; 2],
+        choice: f32,
+    ) -> Option<BsdfSample> {
         match self {
-            Self::Diffuse(b) => b.sample(frame, wo, u),
+            Self::Diffuse(b) => b.sample(frame, wo, direction),
             Self::Mirror(b) => b.sample(frame, wo),
             Self::Conductor(b) => b.sample(frame, wo),
-            Self::RoughConductor(b) => b.sample(frame, wo, u),
-            Self::RoughDielectric(_) => None,
+            Self::RoughConductor(b) => b.sample(frame, wo, direction),
+            Self::Dielectric(b) => b.sample(frame, wo, carried, choice),
+            Self::RoughDielectric(b) => b.sample(frame, wo, carried.throughput, [direction[0], direction[1], choice]),
         }
+    }
+
+    /// Density of `sample` in solid angle, by which it is balanced against other techniques.
+    pub fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Density {
+        match self {
+            Self::Diffuse(b) => Density::Shared(b.pdf(frame, wo, wi)),
+            Self::RoughConductor(b) => Density::Shared(b.pdf(frame, wo, wi)),
+            Self::Mirror(_) | Self::Conductor(_) | Self::Dielectric(_) => Density::Delta,
+            Self::RoughDielectric(b) => {
+                Density::PerLane(b.lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| b.balance_pdf(&lobe)))
+            }
+        }
+    }
+
+    /// `eval` and `pdf` at once; `None` where nothing is scattered.
+    pub fn evaluate(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Option<Evaluation> {
+        if let Self::RoughDielectric(b) = self {
+            return b.evaluate(frame, wo, wi);
+        }
+        let value = self.eval(frame, wo, wi);
+        (!value.is_zero()).then(|| Evaluation { value, pdf: self.pdf(frame, wo, wi), crosses: false })
     }
 
     /// Density in solid angle with which each lane would draw a direction if it were alone.
     pub fn own_pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
         match self {
+            Self::Diffuse(b) => SampledSpectrum::splat(b.pdf(frame, wo, wi)),
+            Self::RoughConductor(b) => SampledSpectrum::splat(b.pdf(frame, wo, wi)),
+            Self::Mirror(_) | Self::Conductor(_) | Self::Dielectric(_) => SampledSpectrum::ZERO,
             Self::RoughDielectric(b) => b.lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| lobe.own_pdf),
-            _ => SampledSpectrum::splat(self.pdf(frame, wo, wi)),
         }
     }
 
-    /// Density of `sample` in solid angle; 0 at boundaries.
-    pub fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> f32 {
+    /// (η_from / η_to)² of each lane for what crosses, else 1: what radiance from there is multiplied by.
+    pub fn radiance_change(&self, crosses: bool) -> SampledSpectrum {
         match self {
-            Self::Diffuse(b) => b.pdf(frame, wo, wi),
-            Self::RoughConductor(b) => b.pdf(frame, wo, wi),
-            Self::Mirror(_) | Self::Conductor(_) | Self::RoughDielectric(_) => 0.0,
+            Self::RoughDielectric(b) => b.radiance_change(crosses),
+            _ => SampledSpectrum::ONE,
+        }
+    }
+
+    /// The same surface met from where a direction goes, with the frame turned to it.
+    pub fn reversed(&self, frame: &Frame, crosses: bool) -> (Self, Frame) {
+        match self {
+            Self::RoughDielectric(b) => {
+                let (reversed, frame) = b.reversed(frame, crosses);
+                (Self::RoughDielectric(reversed), frame)
+            }
+            _ => (*self, *frame),
         }
     }
 }

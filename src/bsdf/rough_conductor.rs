@@ -36,6 +36,7 @@ impl RoughConductor {
     }
 
     /// Draws a facet among those that `wo` sees; `None` if it reflects into the surface.
+    #[inline]
     pub fn sample(&self, frame: &Frame, wo: Vec3, u: [f32; 2]) -> Option<BsdfSample> {
         let view = wo.as_dvec3().normalize();
         if view.dot(frame.geometric) <= 0.0 {
@@ -46,7 +47,7 @@ impl RoughConductor {
         let geometry = self.geometry(frame, wo, wi)?;
         let wi = wi.as_vec3();
         let weight = self.facets.reflectance(geometry.wo.dot(geometry.m)) * geometry.lit as f32;
-        frame.same_side(wo, wi).then_some(BsdfSample { wi, weight, pdf: Some(geometry.pdf as f32) })
+        frame.same_side(wo, wi).then_some(BsdfSample::reflected(wi, weight, geometry.pdf as f32))
     }
 
     /// D G₁ / (4 cos θ_o).

@@ -24,9 +24,10 @@
 //! proportion to what its odds leave over: see `Walk::set_out`. Where lobes are much narrower than what dispersion makes of
 //! one direction, the odds of the hero become C and those of the others 0: it is alone, and its weight is right.
 
-use super::BsdfSample;
-use super::dielectric::{Dielectric, Incidence, Lanes};
+use super::carried::Lanes;
+use super::dielectric::{Dielectric, Incidence};
 use super::microfacet::{Ggx, lit_of_visible};
+use super::{BsdfSample, Density, Evaluation, Outgoing};
 use crate::geometry::Frame;
 use crate::optics;
 use crate::spectrum::{LANES, SampledSpectrum};
@@ -43,7 +44,7 @@ const PARTING_SPREAD: f64 = 1.0 / 3.0;
 /// Facets between two media, met by a path's lanes.
 ///
 /// Values are shares of flux: radiance changes by (η_from / η_to)² besides, where it crosses. See
-/// [`DielectricSample::weight`](super::DielectricSample::weight).
+/// [`DielectricChoice::weight`](super::DielectricChoice::weight).
 #[derive(Debug, Clone, Copy)]
 pub struct RoughDielectric {
     /// The media.
@@ -69,29 +70,6 @@ pub struct Lobe {
     pub own_pdf: SampledSpectrum,
     /// Whether the direction is on the other side.
     pub crosses: bool,
-}
-
-/// A drawn direction, or one for each lane.
-#[derive(Debug, Clone, Copy)]
-pub enum RoughSample {
-    /// All lanes go on together, or the only one does.
-    Together {
-        /// Direction, weight and density.
-        sample: BsdfSample,
-        /// Whether it is on the other side.
-        crosses: bool,
-        /// The odds after it.
-        odds: SampledSpectrum,
-    },
-    /// Refracted at one facet, lanes part.
-    Parted {
-        /// Where each lane goes; `None` if it does not cross.
-        directions: [Option<Vec3>; LANES],
-        /// f · |cos θ| / density of each.
-        weight: SampledSpectrum,
-        /// The density of its direction if it were alone, by which it is balanced against next-event estimation.
-        own_pdf: [f32; LANES],
-    },
 }
 
 /// A surface seen from somewhere.
@@ -131,6 +109,13 @@ impl RoughDielectric {
         self.lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| lobe.value)
     }
 
+    /// Value and density by which samples are balanced; `None` where nothing is scattered.
+    pub fn evaluate(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Option<Evaluation> {
+        let lobe = self.lobe(frame, wo, wi)?;
+        let pdf = Density::PerLane(self.balance_pdf(&lobe));
+        Some(Evaluation { value: lobe.value, pdf, crosses: lobe.crosses })
+    }
+
     /// The density by which a lane's sample of this direction is balanced against other techniques: that of the mixture
     /// where lanes stay together, the lane's own where they part.
     pub fn balance_pdf(&self, lobe: &Lobe) -> SampledSpectrum {
@@ -162,7 +147,7 @@ impl RoughDielectric {
 
     /// Draws a facet among those that `wo` sees by `u[0]` and `u[1]`, and whether it refracts by `u[2]`; `None` if light
     /// that comes from there meets a second facet, which this model leaves out.
-    pub fn sample(&self, frame: &Frame, wo: Vec3, throughput: SampledSpectrum, u: [f32; 3]) -> Option<RoughSample> {
+    pub fn sample(&self, frame: &Frame, wo: Vec3, throughput: SampledSpectrum, u: [f32; 3]) -> Option<BsdfSample> {
         let view = self.view(frame, wo)?;
         let m = self.ggx.sample_visible(view.normal, view.wo, [u[0], u[1]]);
         if self.parts && self.lanes == Lanes::Shared {
@@ -183,7 +168,7 @@ impl RoughDielectric {
     }
 
     /// Lanes that go on together in a direction that one of them has drawn.
-    fn together(&self, frame: &Frame, view: &View, wi: DVec3, crosses: bool) -> Option<RoughSample> {
+    fn together(&self, frame: &Frame, view: &View, wi: DVec3, crosses: bool) -> Option<BsdfSample> {
         let lobe = self.lobe_towards(view, wi, crosses)?;
         let wi = wi.as_vec3();
         if self::crosses(frame, wi) != Some(crosses) {
@@ -197,8 +182,8 @@ impl RoughDielectric {
             Lanes::Shared if self.boundary.is_dispersive() => self.odds * lobe.own_pdf * (1.0 / pdf),
             _ => self.odds,
         };
-        let sample = BsdfSample { wi, weight: lobe.value * (1.0 / pdf), pdf: Some(pdf) };
-        Some(RoughSample::Together { sample, crosses, odds })
+        let (wi, weight) = (Outgoing::Shared(wi), lobe.value * (1.0 / pdf));
+        Some(BsdfSample { wi, weight, pdf: Density::Shared(pdf), crosses, odds: Some(odds), aside: None })
     }
 
     /// Lanes that share a facet: as [`Dielectric`], with its normal.
@@ -209,9 +194,9 @@ impl RoughDielectric {
         m: DVec3,
         throughput: SampledSpectrum,
         u: f32,
-    ) -> Option<RoughSample> {
+    ) -> Option<BsdfSample> {
         let incidence = Incidence::of(-view.wo, m);
-        let choice = self.boundary.divide::<true>(&incidence, Lanes::Shared, throughput).choose(u);
+        let choice = self.boundary.divide(&incidence, Lanes::Shared, throughput).choose(u);
         if !choice.refracted {
             let wi = optics::reflect(-view.wo, m);
             let lobe = self.lobe_towards(view, wi, false)?;
@@ -221,8 +206,7 @@ impl RoughDielectric {
             }
             let lambda_i = self.ggx.lambda(wi.as_dvec3().dot(view.normal));
             let weight = choice.weight * lit_of_visible(view.lambda, lambda_i, false) as f32;
-            let sample = BsdfSample { wi, weight, pdf: Some(self.mixture(&lobe.own_pdf)) };
-            return Some(RoughSample::Together { sample, crosses: false, odds: self.odds });
+            return Some(BsdfSample::reflected(wi, weight, self.mixture(&lobe.own_pdf)));
         }
         let (mut directions, mut weight, mut own_pdf) = ([None; LANES], [0.0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
@@ -235,7 +219,14 @@ impl RoughDielectric {
             weight[lane] = choice.weight.lane(lane) * lit as f32;
             own_pdf[lane] = self.density(view, wi, true, lane) as f32;
         }
-        Some(RoughSample::Parted { directions, weight: SampledSpectrum::new(weight), own_pdf })
+        Some(BsdfSample {
+            wi: Outgoing::PerLane(directions),
+            weight: SampledSpectrum::new(weight),
+            pdf: Density::PerLane(SampledSpectrum::new(own_pdf)),
+            crosses: true,
+            odds: None,
+            aside: None,
+        })
     }
 
     fn view(&self, frame: &Frame, wo: Vec3) -> Option<View> {

@@ -1,7 +1,8 @@
 //! From radiance at a path's wavelengths to XYZ. The only place that divides by a wavelength's density.
 
 use super::Xyz;
-use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
+use crate::color::Observer;
+use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, LANES, SampledSpectrum, Wavelengths};
 
 /// A colour observer at 1 nm: X = ∫ L x̄ dλ / ∫ ȳ dλ, so that a radiance of 1 everywhere gives Y = 1.
 #[derive(Debug, Clone)]
@@ -9,14 +10,27 @@ pub struct Sensor {
     /// x̄, ȳ, z̄ divided by ∫ ȳ dλ, at `first_nm`, `first_nm` + 1, …
     matching: Vec<[f32; 4]>,
     first_nm: f32,
+    name: &'static str,
 }
 
 impl Sensor {
+    /// The colour matching functions of a standard observer.
+    pub fn of_observer(observer: &Observer) -> Self {
+        let matching: Vec<Xyz> =
+            (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(|l| observer.eval(f64::from(l)).to_array()).collect();
+        Self { name: observer.name(), ..Self::new(LAMBDA_MIN_NM, &matching) }
+    }
+
+    /// The observer's name; empty if it is no standard one.
+    pub fn name(&self) -> &'static str {
+        self.name
+    }
+
     /// From colour matching functions at 1 nm steps, linear in between.
     pub fn new(first_nm: f64, matching: &[Xyz]) -> Self {
         let y: f64 = matching.windows(2).map(|w| 0.5 * (w[0][1] + w[1][1])).sum();
         let normalised = |m: &Xyz| [(m[0] / y) as f32, (m[1] / y) as f32, (m[2] / y) as f32, 0.0];
-        Self { matching: matching.iter().map(normalised).collect(), first_nm: first_nm as f32 }
+        Self { matching: matching.iter().map(normalised).collect(), first_nm: first_nm as f32, name: "" }
     }
 
     /// The factor of each lane's radiance in X, Y and Z: matching function / (8 pdf).

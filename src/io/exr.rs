@@ -19,6 +19,8 @@ pub struct Attributes {
     pub samples_per_pixel: u64,
     /// Wall time of the render.
     pub seconds: f64,
+    /// Name of the observer whose XYZ the film holds.
+    pub observer: &'static str,
 }
 
 /// The channels of a picture.
@@ -50,6 +52,7 @@ pub fn encode(film: &Film, attributes: &Attributes) -> Result<(Vec<u8>, usize)> 
     other("sceneHash", AttributeValue::Text(Text::from(format!("{:016x}", attributes.scene_hash).as_str())));
     other("seed", AttributeValue::Text(Text::from(attributes.seed.to_string().as_str())));
     other("samplesPerPixel", AttributeValue::Text(Text::from(attributes.samples_per_pixel.to_string().as_str())));
+    other("observer", AttributeValue::Text(Text::from(attributes.observer)));
     other("renderSeconds", AttributeValue::F64(attributes.seconds));
     let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::FAST_LOSSLESS };
     let layer = Layer::new(size, layer, encoding, AnyChannels::sort(channels));
@@ -90,7 +93,8 @@ mod tests {
 
     #[test]
     fn what_is_written_can_be_read() {
-        let attributes = Attributes { scene_hash: 0xabc, seed: 7, samples_per_pixel: 16, seconds: 1.5 };
+        let attributes =
+            Attributes { scene_hash: 0xabc, seed: 7, samples_per_pixel: 16, seconds: 1.5, observer: "1931-2" };
         let mut film = Film::new(3, 2, 1.0);
         let mut tile = CameraTile::new([0, 0], [3, 2], 0);
         for i in 0..6u32 {
@@ -114,6 +118,7 @@ mod tests {
         assert_eq!(values(7), [0.5; 6]);
         assert_eq!(values(9), [2.0; 6]);
         assert_eq!(layer.attributes.other[&Text::from("sceneHash")], AttributeValue::Text("0000000000000abc".into()));
+        assert_eq!(layer.attributes.other[&Text::from("observer")], AttributeValue::Text("1931-2".into()));
         assert!(image.attributes.chromaticities.is_some());
     }
 }

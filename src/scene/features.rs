@@ -8,8 +8,3 @@ pub struct SceneFeatures {
     /// There are transparent volumes: a path knows what it is inside of.
     pub interiors: bool,
 }
-
-impl SceneFeatures {
-    /// Everything, needed or not. A scene rendered so gives the same bits.
-    pub const ALL: Self = Self { dispersion: true, interiors: true };
-}

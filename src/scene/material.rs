@@ -65,6 +65,22 @@ impl Material {
             Self::Black | Self::Diffuse { .. } => false,
         }
     }
+
+    /// The volume behind the surface, if it is the boundary of one.
+    pub fn medium(&self) -> Option<MediumId> {
+        match *self {
+            Self::Dielectric { medium, .. } => Some(medium),
+            Self::Black | Self::Diffuse { .. } | Self::Mirror { .. } | Self::Conductor { .. } => None,
+        }
+    }
+
+    /// GGX α; 0 where the surface is smooth, or has none.
+    pub fn alpha(&self) -> f32 {
+        match *self {
+            Self::Conductor { alpha, .. } | Self::Dielectric { alpha, .. } => alpha,
+            Self::Black | Self::Diffuse { .. } | Self::Mirror { .. } => 0.0,
+        }
+    }
 }
 
 /// A transparent volume.

@@ -7,7 +7,7 @@ use wide::f32x8;
 pub const LANES: usize = 8;
 
 /// The values of a spectrum at the [`LANES`] wavelengths of a path; the wavelengths themselves travel beside it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SampledSpectrum(f32x8);
 
 impl SampledSpectrum {

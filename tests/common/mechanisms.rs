@@ -4,13 +4,10 @@
 use std::path::{Path, PathBuf};
 
 use abbe::film::Film;
-use abbe::render::{Progress, Statistics, render};
+use abbe::render::{Progress, Statistics, render, render_with_everything};
 use abbe::scene::description::parse_str;
-use abbe::scene::{Compiled, SceneFeatures, compile};
+use abbe::scene::{Compiled, compile};
 use serde_json::{Value, json};
-
-/// No mechanism beyond those that the scene needs.
-pub const NEEDED: SceneFeatures = SceneFeatures { dispersion: false, interiors: false };
 
 /// A folder in which [`everything`] finds its mesh; removed at the end.
 pub struct SceneFolder(PathBuf);
@@ -19,8 +16,7 @@ impl SceneFolder {
     pub fn new(name: &str) -> Self {
         let folder = std::env::temp_dir().join(format!("abbe-{name}-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
-        let mesh = "v 1 1 1\nv 1 -1 -1\nv -1 1 -1\nv -1 -1 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n";
-        std::fs::write(folder.join("tetrahedron.obj"), mesh).unwrap();
+        std::fs::write(folder.join("tetrahedron.obj"), include_str!("../assets/tetrahedron.obj")).unwrap();
         Self(folder)
     }
 
@@ -31,7 +27,7 @@ impl SceneFolder {
 
     /// Renders a scene with what it needs.
     pub fn film(&self, scene: &Value) -> Film {
-        render_all(&self.compile(scene), NEEDED).0
+        render_all(&self.compile(scene)).0
     }
 
     #[allow(dead_code, reason = "not every test that uses this module writes files")]
@@ -46,97 +42,24 @@ impl Drop for SceneFolder {
     }
 }
 
-pub fn render_all(compiled: &Compiled, features: SceneFeatures) -> (Film, Statistics) {
+/// Renders with the mechanisms that the scene needs.
+pub fn render_all(compiled: &Compiled) -> (Film, Statistics) {
     let proceed = &mut |_: Progress| true;
-    let rendering = render(&compiled.scene, &compiled.render, &compiled.film, features, proceed);
+    let rendering = render(&compiled.scene, &compiled.render, &compiled.film, proceed);
     (rendering.film, rendering.statistics)
 }
 
+/// Renders with all mechanisms, needed or not.
+#[allow(dead_code, reason = "not every test that uses this module forces mechanisms")]
+pub fn render_forced(compiled: &Compiled) -> (Film, Statistics) {
+    let proceed = &mut |_: Progress| true;
+    let rendering = render_with_everything(&compiled.scene, &compiled.render, &compiled.film, proceed);
+    (rendering.film, rendering.statistics)
+}
+
+/// The scene, `tests/assets/everything.json`.
 pub fn everything() -> Value {
-    json!({
-        "camera": { "type": "perspective", "from": [0.3, 1.9, 5.2], "to": [0, 0.5, 0], "fov_degrees": 42,
-                    "aperture_radius": 0.03, "focus_distance": 5.1 },
-        "film": { "width": 40, "height": 28, "filter": { "type": "blackman-harris" } },
-        "render": { "samples_per_pixel": 6, "max_depth": 24, "seed": 7 },
-        "spectra": {
-            "paint": { "wavelengths_nm": [380, 500, 600, 780], "values": [0.2, 0.7, 0.5, 0.8] },
-            "dark": { "name": "paint", "scale": 0.5 }
-        },
-        "materials": materials(),
-        "objects": objects(),
-        "lights": [
-            { "type": "point", "position": [-2.5, 3, 1], "intensity": { "blackbody_kelvin": 4000, "scale": 0.7 } },
-            { "type": "spot", "position": [2.5, 3, 2], "direction": [-1, -1.2, -0.8], "intensity": { "rgb": [3, 2, 1] },
-              "inner_degrees": 12, "outer_degrees": 25 },
-            { "type": "directional", "direction": [0.3, -1, -0.4], "irradiance": { "illuminant": "D65", "scale": 0.3 } },
-            { "type": "directional", "direction": [-0.5, -1, 0.2], "irradiance": 0.2, "angular_diameter_degrees": 3 },
-            { "type": "beam", "origin": [-3, 0.45, 0.2], "direction": [1, 0, 0], "radius": 0.05,
-              "power": { "line_nm": 589.3, "fwhm_nm": 4, "scale": 0.05 } }
-        ],
-        "environment": { "radiance": { "illuminant": "D65", "scale": 0.05 } }
-    })
-}
-
-fn materials() -> Value {
-    json!({
-        "floor": { "type": "diffuse", "reflectance": "paint" },
-        "clay": { "type": "diffuse", "reflectance": { "rgb": [0.7, 0.4, 0.3] }, "two_sided": false },
-        "mirror": { "type": "mirror", "reflectance": "dark" },
-        "gold": { "type": "conductor", "metal": "Au" },
-        "steel": { "type": "conductor", "eta": 2.5, "k": { "wavelengths_nm": [400, 700], "values": [2.5, 3.5] },
-                   "roughness": 0.2 },
-        "flint": { "type": "dielectric", "ior": { "glass": "N-SF11" }, "absorption_per_m": { "name": "paint", "scale": 0.9 } },
-        "water": { "type": "dielectric", "ior": { "cauchy_um": [1.32, 0.003] }, "priority": 1, "absorption_per_m": 0.3 },
-        "crown": { "type": "dielectric", "ior": { "sellmeier": { "b": [1.03961212, 0.231792344, 1.01046945],
-                   "c_um2": [0.00600069867, 0.0200179144, 103.560653] } }, "roughness": 0.05 },
-        "plastic": { "type": "dielectric", "ior": { "nd": 1.49, "vd": 57 } },
-        "table": { "type": "dielectric", "ior": { "wavelengths_nm": [350, 850], "values": [1.53, 1.51] } },
-        "plain": { "type": "dielectric", "ior": 1.5, "roughness": 0.15 }
-    })
-}
-
-fn objects() -> Value {
-    let at = |x: f64, z: f64| json!([{ "rotate_degrees": 30, "axis": [1, 2, 0] }, { "translate": [x, 0.45, z] }]);
-    json!([
-        { "shape": { "type": "quad", "origin": [-4, 0, 4], "u": [8, 0, 0], "v": [0, 0, -8] }, "material": "floor" },
-        { "shape": { "type": "sphere", "center": [0, 0.5, 0.4], "radius": 0.4 }, "material": "flint" },
-        { "shape": { "type": "sphere", "center": [0.1, 0.5, 0.4], "radius": 0.15 }, "material": "water" },
-        { "shape": { "type": "sphere", "center": [0, 0.3, 0], "radius": 0.25 }, "material": "clay",
-          "transform": [{ "scale": [1, 1.3, 0.8] }, { "translate": [1, 0, 1] }] },
-        { "shape": { "type": "disk", "center": [0, 1, -2], "normal": [0.2, 0.1, 1], "radius": 0.9 }, "material": "mirror" },
-        { "shape": { "type": "triangles", "positions": [-0.3, 0, 0.3, 0.3, 0, 0.3, 0, 0.6, 0, 0, 0, -0.3],
-                     "indices": [0, 1, 2, 1, 3, 2, 3, 0, 2], "normals": [-1, 0.3, 1, 1, 0.3, 1, 0, 1, 0, 0, 0.3, -1] },
-          "material": "clay", "transform": [{ "translate": [-1, 0, 1.4] }] },
-        { "shape": { "type": "mesh", "file": "tetrahedron.obj" }, "material": "gold",
-          "transform": [{ "scale": 0.25 }, { "rotate_degrees": 20, "axis": [0, 1, 0] }, { "translate": [1.7, 0.4, 0.4] }] },
-        { "shape": { "type": "implicit", "surface": "torus", "major_radius": 0.25, "minor_radius": 0.1 },
-          "material": "plain", "transform": at(-1.0, 0.2) },
-        { "shape": { "type": "implicit", "surface": "superquadric", "radii": [0.3, 0.25, 0.3], "exponent_y": 0.5, "exponent_xz": 1.4 },
-          "material": "table", "transform": at(1.0, -0.2) },
-        { "shape": { "type": "implicit", "surface": "gyroid", "period": 0.4, "thickness": 0.06, "radius": 0.35 },
-          "material": "clay", "transform": at(-1.9, -0.2) },
-        { "shape": { "type": "implicit", "surface": "smooth-union", "centers": [[0, 0, 0], [0.3, 0, 0]], "radii": [0.25, 0.2], "blend": 0.1 },
-          "material": "plastic", "transform": at(-0.5, -0.9) },
-        { "shape": { "type": "implicit", "surface": "tanglecube", "size": 0.12 }, "material": "steel", "transform": at(0.5, -0.9) },
-        { "shape": { "type": "prism", "apex_degrees": 60, "side": 0.6, "length": 0.8 }, "material": "crown",
-          "transform": [{ "matrix": [1, 0, 0, -1.8, 0, 0, -1, 0.4, 0, 1, 0, 0.8, 0, 0, 0, 1] }] },
-        { "shape": { "type": "brilliant", "radius": 0.3 }, "material": "flint",
-          "transform": [{ "scale": [1, 1, -1] }, { "translate": [0.6, 0.4, 1.6] }] },
-        { "shape": { "type": "lens", "radii": [0.5, null], "thickness": 0.1, "diameter": 0.5 }, "material": "crown",
-          "transform": [{ "translate": [-0.35, 0.4, 1.6] }] },
-        { "shape": { "type": "sphere", "center": [0.4, 2.6, 0.3], "radius": 0.06 },
-          "emission": { "blackbody_kelvin": 3000, "scale": 60 } },
-        { "shape": { "type": "disk", "center": [-1.5, 2.4, 0], "normal": [0.3, -1, 0], "radius": 0.2 },
-          "emission": { "illuminant": "A", "scale": 3 }, "emission_two_sided": true },
-        { "shape": { "type": "quad", "origin": [1.2, 2.4, -0.6], "u": [0.5, 0, 0], "v": [0, 0, 0.4] }, "material": "clay",
-          "emission": { "rgb": [2, 3, 4] } },
-        { "shape": { "type": "triangles", "positions": [-3, 0.2, -1, -3, 1, -1, -2.8, 0.2, 0.5], "indices": [0, 2, 1] },
-          "material": "clay", "emission": "paint" },
-        { "shape": { "type": "implicit", "surface": "torus", "major_radius": 0.2, "minor_radius": 0.05 },
-          "emission": 1.5, "transform": [{ "translate": [2.4, 0.3, 1.4] }] },
-        { "shape": { "type": "sphere", "center": [0, 0, 0], "radius": 0.2 },
-          "emission": 1, "transform": [{ "scale": [1, 0.5, 1] }, { "translate": [0, 1.3, -0.8] }] }
-    ])
+    serde_json::from_str(include_str!("../assets/everything.json")).unwrap()
 }
 
 /// Multiplies a number, a list of numbers (null stays), or a spectrum.

@@ -4,7 +4,7 @@
 use abbe::film::Film;
 use abbe::math;
 use abbe::render::{Rendering, Statistics};
-use abbe::scene::{Compiled, SceneFeatures};
+use abbe::scene::Compiled;
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -30,9 +30,8 @@ pub fn render_compiled(compiled: &Compiled) -> (Film, Statistics) {
 
 /// The same for a scene with edges of volumes in each other: a path that comes within rounding of one may lose count.
 pub fn render_counting_underflows(compiled: &Compiled) -> (Film, Statistics) {
-    let features = SceneFeatures { dispersion: false, interiors: false };
     let Rendering { film, statistics, .. } =
-        abbe::render::render(&compiled.scene, &compiled.render, &compiled.film, features, &mut |_| true);
+        abbe::render::render(&compiled.scene, &compiled.render, &compiled.film, &mut |_| true);
     assert!(statistics.complete);
     assert_eq!(film.non_finite_samples, 0, "samples were not finite");
     (film, statistics)

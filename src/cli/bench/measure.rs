@@ -6,7 +6,7 @@ use crate::cli::process;
 use crate::io::exr_read::{self, Preference};
 use crate::metrics::{self, Pair};
 use crate::render::{Phase, Progress, Rendering, render};
-use crate::scene::{RenderSettings, SceneFeatures};
+use crate::scene::RenderSettings;
 use crate::{Error, ErrorKind, Result};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -132,10 +132,9 @@ pub fn measure(session: &Session, work: &Work, variant: &Variant, spp: u64, seed
 pub fn abbe(session: &Session, work: &Work, settings: &RenderSettings) -> (Image, Run) {
     process::reset_peak_memory();
     let (started, cpu) = (Instant::now(), session.clock.own());
-    let none = SceneFeatures { dispersion: false, interiors: false };
     let compiled = &work.compiled;
     let (picture, rendering) = session.pool.install(|| {
-        let rendering = render(&compiled.scene, settings, &compiled.film, none, &mut |_: Progress| true);
+        let rendering = render(&compiled.scene, settings, &compiled.film, &mut |_: Progress| true);
         (rendering.film.to_xyz(), rendering)
     });
     let statistics = &rendering.statistics;

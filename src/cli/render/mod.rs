@@ -5,10 +5,11 @@ mod report;
 mod write;
 
 use super::process;
+use crate::color::Observer;
 use crate::film::Film;
 use crate::render::{Progress, blind_spot, render};
 use crate::scene::description::{self, SceneDescription};
-use crate::scene::{Compiled, SceneFeatures, compile};
+use crate::scene::{Compiled, compile};
 use crate::{Error, ErrorKind, Result};
 use progress::ProgressDisplay;
 use std::path::{Path, PathBuf};
@@ -41,6 +42,9 @@ pub struct RenderArgs {
     /// auto, path, light, merge or hero
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<String>,
+    /// Observer whose XYZ is recorded: 1931-2, 1964-10, 2015-2 or 2015-10
+    #[arg(long, value_name = "NAME")]
+    pub observer: Option<String>,
     /// Exposure of PNGs in stops, or auto
     #[arg(long, value_name = "EV", allow_negative_numbers = true)]
     pub exposure: Option<String>,
@@ -111,8 +115,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let interrupted = watch_for_interrupts()?;
     let bar = ProgressDisplay::new(args.quiet, &compiled.render, started);
     let rendering = pool.install(|| {
-        let none = SceneFeatures { dispersion: false, interiors: false };
-        render(&compiled.scene, &compiled.render, &compiled.film, none, &mut |progress: Progress| {
+        render(&compiled.scene, &compiled.render, &compiled.film, &mut |progress: Progress| {
             bar.show(&progress);
             !interrupted.load(Ordering::Relaxed)
         })
@@ -230,6 +233,9 @@ fn override_settings(description: &mut SceneDescription, args: &RenderArgs) -> R
     }
     if let Some(name) = &args.tonemap {
         description.develop.tonemap = named("--tonemap", name, description::TONEMAPS)?;
+    }
+    if let Some(name) = &args.observer {
+        description.film.observer = Observer::by_name(name).map_err(|e| e.at("--observer"))?.name().to_owned();
     }
     if let Some(text) = &args.exposure {
         description.develop.exposure_ev = match text.as_str() {

@@ -54,6 +54,7 @@ impl Written<'_> {
             seed: self.compiled.render.seed,
             samples_per_pixel: statistics.samples,
             seconds,
+            observer: self.compiled.film.sensor.name(),
         };
         let (bytes, overflows) = exr::encode(film, &attributes)?;
         if overflows > 0 {

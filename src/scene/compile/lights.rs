@@ -45,6 +45,7 @@ const FAINTEST: f64 = 1.0 / (1u128 << 100) as f64;
 
 pub fn compile(
     description: &SceneDescription,
+    observer: &Observer,
     geometry: &mut Geometry,
     solids: &[Solid],
     spectra: &mut Spectra,
@@ -61,7 +62,7 @@ pub fn compile(
             .push(format!("{file}: {}: this light is 2^-100 of the brightest or less, and will not be seen", light.at));
     }
 
-    let spectral = SpectralGrid::new(&raw);
+    let spectral = SpectralGrid::new(&raw, observer);
     let mut lights = Lights {
         lights: Vec::new(),
         sampled: AliasTable::default(),
@@ -272,7 +273,7 @@ struct SpectralGrid {
 }
 
 impl SpectralGrid {
-    fn new(lights: &[Raw]) -> Self {
+    fn new(lights: &[Raw], observer: &Observer) -> Self {
         let mut lambda_nm: Vec<f64> = (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(f64::from).collect();
         for light in lights.iter().filter(|l| l.spectrum.is_constant().is_none()) {
             lambda_nm.extend_from_slice(light.spectrum.tabulate().lambdas_nm());
@@ -281,7 +282,6 @@ impl SpectralGrid {
         lambda_nm.sort_by(f64::total_cmp);
         // Knots that f32 cannot tell apart are one.
         lambda_nm.dedup_by(|a, b| *a as f32 == *b as f32);
-        let observer = Observer::cie_1931_2deg();
         let sensitivity = lambda_nm.iter().map(|&l| observer.eval(l).element_sum()).collect();
         Self { lambda_nm, sensitivity }
     }

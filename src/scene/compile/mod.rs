@@ -10,7 +10,8 @@ mod spectra;
 use super::Integrator;
 use super::description::{FilterKind, FovAxis, SceneDescription};
 use super::{Camera, Scene, SceneFeatures};
-use crate::film::Filter;
+use crate::color::Observer;
+use crate::film::{Filter, Sensor};
 use crate::geometry::Bvh;
 use crate::math;
 use crate::{Error, ErrorKind, Result};
@@ -63,6 +64,8 @@ pub struct FilmSettings {
     pub height: u32,
     /// Reconstruction filter.
     pub filter: Filter,
+    /// What is recorded of radiance.
+    pub sensor: Sensor,
 }
 
 /// Compiles a description. Reads the files it names.
@@ -83,7 +86,9 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
     let mut geometry = Geometry::compile(description, placed, &normalization, &materials)?;
     let bvh = Bvh::build(&geometry.positions, &geometry.triangles, &geometry.analytic_bounds());
     let solids = geometry.solids();
-    let lights = lights::compile(description, &mut geometry, &solids, &mut spectra, &normalization, &mut warnings)?;
+    let observer = Observer::by_name(&description.film.observer).map_err(|error| error.at("film.observer"))?;
+    let lights =
+        lights::compile(description, observer, &mut geometry, &solids, &mut spectra, &normalization, &mut warnings)?;
     warnings.extend(spectra.take_warnings());
     let features = SceneFeatures {
         dispersion: materials.media.iter().any(|m| m.dispersive),
@@ -133,7 +138,7 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
             seed: description.render.seed,
             integrator,
         },
-        film: FilmSettings { width: film.width, height: film.height, filter },
+        film: FilmSettings { width: film.width, height: film.height, filter, sensor: Sensor::of_observer(observer) },
         warnings,
     })
 }

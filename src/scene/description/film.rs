@@ -1,6 +1,7 @@
 //! The film.
 
-use super::codec::{Integer, Number, Object, Range, Record, Variant};
+use super::codec::{Integer, KnownName, Number, Object, Range, Record, Variant};
+use crate::color::Observer;
 use crate::{ErrorKind, Result};
 
 /// Largest width or height of a picture, pixels.
@@ -20,6 +21,8 @@ pub struct FilmDescription {
     pub filter: FilterKind,
     /// Filter radius, pixels.
     pub filter_radius: f64,
+    /// Name of the observer whose XYZ is recorded.
+    pub observer: String,
 }
 
 /// Reconstruction filters.
@@ -65,10 +68,13 @@ fn film(o: &mut Object) -> Result<FilmDescription> {
     let height = o.required("height", side, "Rows; width × height is at most 2^32.")? as u32;
     let doc = "Reconstruction filter; a box of 0.5 pixel by default.";
     let (filter, filter_radius) = o.default("filter", FILTER, "{\"type\": \"box\"}", doc)?;
+    let observer = KnownName { what: "an observer", names: || Observer::names().collect() };
+    let doc = "Whose XYZ the film records, and by whose eyes wavelengths are chosen: CIE year and field in degrees.";
+    let observer = o.default("observer", observer, "\"1931-2\"", doc)?;
     o.name()?;
     let too_many = u64::from(width) * u64::from(height) > MAX_PIXELS;
     o.refuse_if(too_many, ErrorKind::LimitExceeded, "", || {
         format!("{width} × {height} pixels; the limit is {MAX_PIXELS} pixels in all")
     })?;
-    Ok(FilmDescription { width, height, filter, filter_radius })
+    Ok(FilmDescription { width, height, filter, filter_radius, observer })
 }

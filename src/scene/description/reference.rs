@@ -134,8 +134,9 @@ impl Writer {
 fn meaning(field: &Field) -> String {
     match &field.kind {
         Kind::Choice(names) => {
-            let names: Vec<String> = names.iter().map(|(name, doc)| format!("`\"{name}\"`: {doc}")).collect();
-            format!("{} {}", field.doc, names.join(" "))
+            let documented = names.iter().filter(|(_, doc)| !doc.is_empty());
+            let names = documented.map(|(name, doc)| format!(" `\"{name}\"`: {doc}"));
+            format!("{}{}", field.doc, names.collect::<String>())
         }
         _ => field.doc.to_owned(),
     }

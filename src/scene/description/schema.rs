@@ -167,9 +167,10 @@ fn numbers_schema(numbers: &NumbersKind) -> Value {
 }
 
 fn choice_schema(names: &[(&str, &str)]) -> Value {
-    let doc: Vec<String> = names.iter().map(|(name, doc)| format!("\"{name}\": {doc}")).collect();
+    let documented = names.iter().filter(|(_, doc)| !doc.is_empty());
+    let doc: Vec<String> = documented.map(|(name, doc)| format!("\"{name}\": {doc}")).collect();
     let names: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
-    json!({ "enum": names, "description": doc.join(" ") })
+    described(json!({ "enum": names }), &doc.join(" "))
 }
 
 /// Matches the extensions in either case.

@@ -216,6 +216,36 @@ impl<T: Copy> Codec for Choice<T> {
     }
 }
 
+/// One of the names that another module lists.
+#[derive(Debug, Clone, Copy)]
+pub struct KnownName {
+    /// What is named, with its article.
+    pub what: &'static str,
+    /// Lists the names.
+    pub names: fn() -> Vec<&'static str>,
+}
+
+impl Codec for KnownName {
+    type Value = String;
+
+    fn kind(&self) -> Kind {
+        Kind::Choice((self.names)().into_iter().map(|name| (name, "")).collect())
+    }
+
+    fn read(&self, value: &Value) -> Result<String> {
+        if value.json.as_text().is_none() {
+            return Err(value.wrong_type(&self.kind().expected()));
+        }
+        let names = (self.names)();
+        let index = find_name(value, self.what, names.iter().copied())?;
+        Ok(names[index].to_owned())
+    }
+
+    fn placeholder(&self) -> String {
+        String::new()
+    }
+}
+
 /// A number, or something of another JSON type.
 #[derive(Debug, Clone, Copy)]
 pub struct NumberOr<C: Codec> {

@@ -107,9 +107,9 @@ fn blurred(values: &[f64], [width, height]: [usize; 2]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::allocation::Allocation;
-    use super::super::schedule::Work;
     use super::*;
+    use crate::render::driver::allocation::Allocation;
+    use crate::render::driver::schedule::Work;
 
     #[test]
     fn rates_follow_noise_at_the_same_cost() {

@@ -3,11 +3,8 @@
 //! measured, and from counted operations, never from a clock.
 
 use super::allocation::Allocation;
-use super::fork::{Branching, NEVER};
-use super::guide::Guide;
-use super::merge::Merging;
-use super::techniques::Techniques;
-use super::walk::Parting;
+use crate::bsdf::{Branching, NEVER, Parting};
+use crate::render::techniques::{Guide, Merging, Techniques};
 use crate::sampling::AliasTable;
 use crate::scene::{Integrator, Light, LightKind, Scene};
 use crate::spectrum::LANES;
@@ -15,7 +12,7 @@ use std::fmt;
 
 /// Ways that a bundle takes where nothing is known of a scene: the best or next to it in all that were measured.
 const USUAL_WAYS: u8 = 2;
-/// Least shares for which paths fork, see [`super::fork`]. By experiment, relMSE × CPU time of camera paths is least at 1/16
+/// Least shares for which paths fork, see [`crate::bsdf::Branching`]. By experiment, relMSE × CPU time of camera paths is least at 1/16
 /// or next to it: against no forks less by 2 in a gem and by 1.3 in nested glass, and the same in scenes that are not mostly
 /// seen through glass. What light paths find serves all pixels, and 1/64 is less by 2.5 than no forks for a rainbow.
 const CAMERA_LEAST_SHARE: f32 = 1.0 / 16.0;

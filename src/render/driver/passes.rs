@@ -2,15 +2,14 @@
 //! their order.
 
 use super::adaptive::Adaptive;
-use super::fork::Branching;
-use super::light::{LightTracer, Splatter};
+use super::renderer::Renderer;
 use super::schedule::Segment;
-use super::techniques::Techniques;
-use super::walk::{Parting, Walk};
-use super::workspace::{Counters, Workspace};
-use super::{Renderer, baseline, path};
+use super::streams::{Stream, render_seed};
+use crate::bsdf::{Branching, Carried, Parting};
 use crate::film::{CAMERA_REPLICATES, CameraTile, Film, LIGHT_REPLICATES, Sensor, Splat, Xyz};
-use crate::sampling::{DIMENSIONS, Sobol, mix};
+use crate::render::paths::{Counters, Place, TransportMode, Walk, Workspace};
+use crate::render::techniques::{LightTracer, Splatter, Techniques, baseline, radiance};
+use crate::sampling::DIMENSIONS;
 use crate::scene::FilmSettings;
 use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
 use rayon::prelude::*;
@@ -28,7 +27,7 @@ pub const BLOCK: u64 = 512;
 /// Blocks that are traced before their splats go to the film, in order.
 const BLOCKS_AT_ONCE: usize = 256;
 
-impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION, INTERIORS> {
+impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
     /// Takes some samples of every pixel: on average those between two numbers, of which the first ends a round.
     pub fn camera_pass(
         &self,
@@ -70,7 +69,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         let size = [columns.len() as u32, rows.len() as u32];
         let mut sums = CameraTile::new([columns.start, rows.start], size, reach);
         let mut squares = Vec::with_capacity(columns.len() * rows.len());
-        let stream = (mix(self.settings.seed), self.plan.camera);
+        let (seed, branching) = (render_seed(self.settings.seed), self.plan.camera);
         for (y, x) in rows.flat_map(|y| columns.clone().map(move |x| (y, x))) {
             let pixel = self.on_film([x, y]);
             let (samples, weight) = match (adaptive, pixel) {
@@ -79,7 +78,8 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
             };
             let rays = workspace.counters.rays;
             for sample in samples.clone() {
-                let CameraSample { offset, replicate, xyz } = self.camera_sample(workspace, [x, y], sample, stream);
+                let CameraSample { offset, replicate, xyz } =
+                    self.camera_sample(workspace, [x, y], sample, seed, branching);
                 match offset {
                     Some(offset) => sums.add(&self.film.filter, ([x, y], offset), replicate, (weight, xyz)),
                     None => sums.add_to_pixel([x, y], replicate, (weight, xyz)),
@@ -129,22 +129,22 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         workspace: &mut Workspace,
         pixel: [i32; 2],
         sample: u64,
-        (seed, branching): (u64, Branching),
+        seed: u64,
+        branching: Branching,
     ) -> CameraSample {
         let replicate = (sample % CAMERA_REPLICATES as u64) as usize;
         let index = sample / CAMERA_REPLICATES as u64;
-        let sobol = Sobol::new(seed ^ (self.square(pixel) << 8 | replicate as u64));
-        let u = sobol.group(index, 0);
+        let stream = Stream::Camera { square: self.square(pixel), replicate: replicate as u8 };
+        let place = Place { sobol: stream.sequence(seed), index };
+        let u = place.sobol.group(index, 0);
         let baseline = branching.parting == Parting::Terminate;
         let wavelengths = if baseline { baseline::wavelengths(u[2]) } else { self.scene.wavelengths.sample(u[2]) };
         let offset = if baseline { self.offset_by_filter(u) } else { [u[0], u[1]] };
-        let mut walk = self.camera_walk(workspace, (pixel, offset), wavelengths, u, (sobol, index));
-        (walk.parting, walk.least_share) = (branching.parting, branching.least_share);
+        let mut walk = self.camera_walk(workspace, pixel, offset, wavelengths, branching, place, u);
         if baseline {
-            (walk.hero, walk.throughput) = (0, baseline::throughput());
+            (walk.carried.hero, walk.carried.throughput) = (0, baseline::throughput());
         }
-        let radiance =
-            path::radiance::<DISPERSION, INTERIORS>(&mut walk, &self.plan.techniques, self.settings.max_depth);
+        let radiance = radiance::<INTERIORS>(&mut walk, &self.plan.techniques, self.settings.max_depth);
         CameraSample { offset: (!baseline).then_some(offset), replicate, xyz: self.xyz(&wavelengths, radiance) }
     }
 
@@ -159,10 +159,12 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
     pub fn camera_walk<'w>(
         &self,
         workspace: &'w mut Workspace,
-        ([x, y], offset): ([i32; 2], [f32; 2]),
+        [x, y]: [i32; 2],
+        offset: [f32; 2],
         wavelengths: Wavelengths,
+        branching: Branching,
+        place: Place,
         u: [f32; DIMENSIONS],
-        random: (Sobol, u64),
     ) -> Walk<'w>
     where
         'a: 'w,
@@ -176,11 +178,13 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                 None => workspace.interiors.reset(&self.scene.interiors_at(ray.origin)),
             }
         }
-        Walk::start(self.scene, workspace, ray, (hero, self.plan.camera), random)
+        let carried = Carried::new(hero, branching);
+        Walk::start(self.scene, workspace, ray, TransportMode::Radiance, carried, place)
     }
 
+    /// XYZ of what a path has found.
     pub fn xyz(&self, wavelengths: &Wavelengths, radiance: SampledSpectrum) -> [f64; 3] {
-        if radiance.is_zero() { [0.0; 3] } else { Sensor::xyz(&self.sensor.weights(wavelengths), radiance) }
+        if radiance.is_zero() { [0.0; 3] } else { Sensor::xyz(&self.film.sensor.weights(wavelengths), radiance) }
     }
 
     /// How light paths are traced, by the plan.
@@ -214,14 +218,14 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
     /// Light paths of one block: replicates have blocks in turns, each with a sequence of its own.
     fn light_block(&self, workspace: &mut Workspace, paths: Range<u64>) -> (Vec<Splat>, Counters) {
         workspace.counters = Counters::default();
-        // Pixels number fewer than 2⁵⁶: their sequences are others.
-        let sobol = Sobol::new(mix(self.settings.seed) ^ (u64::MAX - replicate_of(&paths) as u64));
+        let stream = Stream::Light { replicate: replicate_of(&paths) as u8 };
+        let sobol = stream.sequence(render_seed(self.settings.seed));
         let tracer = self.light_tracer();
-        let mut splatter = Splatter::new(&self.sensor, &self.film.filter, &self.plan.techniques);
+        let mut splatter = Splatter::new(&self.film.sensor, &self.film.filter, &self.plan.techniques);
         let before = paths.start / BLOCK / LIGHT_REPLICATES as u64 * BLOCK;
         for path in paths {
-            let index = before + path % BLOCK;
-            tracer.trace::<DISPERSION, INTERIORS>(workspace, (sobol, index), None, &mut splatter);
+            let place = Place { sobol, index: before + path % BLOCK };
+            tracer.trace::<INTERIORS>(workspace, place, None, &mut splatter);
         }
         (splatter.splats, workspace.counters)
     }

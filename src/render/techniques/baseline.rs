@@ -6,7 +6,7 @@
 //! up, even if the path is reflected there, and with them their share of all light gathered before. Samples are placed by a
 //! pixel's filter and count in that pixel alone.
 
-use super::walk::BASELINE_LANES;
+use crate::bsdf::BASELINE_LANES;
 use crate::math;
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, LANES, SampledSpectrum, Wavelengths};
 

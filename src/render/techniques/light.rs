@@ -1,17 +1,14 @@
 //! Light paths, splatted where the camera sees them.
 
-use super::fork::Branching;
+use super::camera::{camera_density, rough_camera_density};
 use super::guide::Guide;
-use super::path::{camera_density, rough_camera_density};
-use super::scatter::{Bounce, Met};
-use super::techniques::{LightPathDensity, Techniques};
-use super::walk::{Crossing, Walk};
-use super::workspace::Workspace;
-use crate::bsdf::Bsdf;
+use super::table::{LightPathDensity, Techniques};
+use crate::bsdf::{Branching, Carried};
 use crate::film::{Filter, Sensor, Splat};
-use crate::geometry::{Frame, Ray, offset_origin};
-use crate::sampling::{Draw, Sobol, balance_heuristic};
-use crate::scene::{Emission, GuidedPair, LightKind, Material, Scene, Surface};
+use crate::geometry::{Ray, offset_origin};
+use crate::render::paths::{Encounter, Place, Scattering, TransportMode, Vertex, Walk, Workspace, adjoint};
+use crate::sampling::{Draw, balance_heuristic};
+use crate::scene::{Emission, GuidedPair, LightKind, Scene, Surface};
 use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
 use glam::Vec3;
 
@@ -70,11 +67,7 @@ pub struct Arrival<'a> {
     /// What it met before, and first.
     pub first: First,
     /// Where it is.
-    pub surface: &'a Surface,
-    /// How light scatters there.
-    pub bsdf: &'a Bsdf,
-    /// The normals, turned to the path.
-    pub frame: &'a Frame,
+    pub vertex: &'a Vertex<'a>,
     /// Two random numbers that nothing else uses.
     pub u: [f32; 2],
 }
@@ -89,16 +82,16 @@ pub trait Collector {
 
 impl LightTracer<'_> {
     /// Traces path `index` of a sequence, at given wavelengths or at those that its light prefers.
-    pub fn trace<const DISPERSION: bool, const INTERIORS: bool>(
+    pub fn trace<const INTERIORS: bool>(
         &self,
         workspace: &mut Workspace,
-        (sobol, index): (Sobol, u64),
+        place: Place,
         wavelengths: Option<Wavelengths>,
         collector: &mut impl Collector,
     ) {
         // Point, wavelengths and direction first: that is where the picture of a caustic comes from.
         let scene = self.scene;
-        let u = sobol.group(index, 0);
+        let u = place.sobol.group(place.index, 0);
         let Some(Draw { index: light_index, probability, .. }) = self.guide.sample_light(u[5]) else { return };
         let light = &scene.lights[light_index];
         let wavelengths = wavelengths.unwrap_or_else(|| light.wavelengths.sample(u[2]));
@@ -124,16 +117,17 @@ impl LightTracer<'_> {
             emission,
         };
         let ray = Ray { origin, direction: emission.direction };
-        let mut walk = Walk::start(scene, workspace, ray, (hero, self.branching), (sobol, index));
+        let carried = Carried::new(hero, self.branching);
+        let mut walk = Walk::start(scene, workspace, ray, TransportMode::Importance, carried, place);
         collector.leave::<INTERIORS>(&mut walk, &start);
-        self.follow::<DISPERSION, INTERIORS>(&mut walk, &start, First::Nothing, collector);
+        self.follow::<INTERIORS>(&mut walk, &start, First::Nothing, collector);
         while walk.resume() {
-            self.follow::<DISPERSION, INTERIORS>(&mut walk, &start, First::Specular, collector);
+            self.follow::<INTERIORS>(&mut walk, &start, First::Specular, collector);
         }
     }
 
     /// Follows a path from surface to surface.
-    fn follow<const DISPERSION: bool, const INTERIORS: bool>(
+    fn follow<const INTERIORS: bool>(
         &self,
         walk: &mut Walk,
         start: &Start,
@@ -141,64 +135,48 @@ impl LightTracer<'_> {
         collector: &mut impl Collector,
     ) {
         while walk.depth < self.max_depth {
-            let Some(surface) = walk.advance::<INTERIORS>() else { break };
-            let object = &self.scene.objects[surface.object as usize];
-            let u = walk.random();
-            let parted = if let Material::Dielectric { medium, alpha: 0.0 } = object.material {
-                match walk.meet_dielectric::<DISPERSION>(&surface, medium, u[2]) {
-                    Crossing::Passed => continue,
-                    Crossing::Ended => break,
-                    Crossing::Scattered => None,
-                    Crossing::Parted(ways) => Some(ways),
-                }
-            } else {
-                let (bsdf, frame) = match walk.meet::<INTERIORS>(object, &surface) {
-                    Met::Scatterer(bsdf, frame) => (bsdf, frame),
-                    Met::Nothing => continue,
-                    Met::Black => break,
-                };
-                if !bsdf.is_specular() {
-                    let arrival = Arrival { first, surface: &surface, bsdf: &bsdf, frame: &frame, u: [u[4], u[5]] };
-                    if self.owns(start, &arrival) {
-                        collector.arrive::<INTERIORS>(walk, start, arrival);
-                    }
-                    first = match first {
-                        First::Nothing if bsdf.is_rough() && object.material.focuses() => {
-                            First::Glossy { then_matte: false }
-                        }
-                        First::Nothing => First::Diffuse,
-                        First::Glossy { .. } if !bsdf.is_rough() => First::Glossy { then_matte: true },
-                        _ => first,
-                    };
-                    // What is lit directly belongs to camera paths, and all that follows from it.
-                    let local = self.scene.lights[start.light as usize].is_local();
-                    if self.caustics_only && first == First::Diffuse && !local {
-                        break;
-                    }
-                    if !bsdf.is_rough() && !walk.diffused() {
-                        break;
-                    }
-                }
-                walk.throughput *= adjoint(&frame, -walk.ray.direction);
-                match walk.bounce(&surface, &bsdf, &frame.without_shading(), [u[0], u[1], u[2]]) {
-                    Bounce::Ended => break,
-                    Bounce::Along(_) => None,
-                    Bounce::Parted(ways) => Some(ways),
-                }
+            // The next vertex.
+            let Some(surface) = walk.advance::<INTERIORS>() else { return };
+            let encounter = walk.encounter::<INTERIORS>(&surface);
+            let vertex = match &encounter {
+                Encounter::Vertex(vertex) => vertex,
+                Encounter::Passed => continue,
+                Encounter::Absorbed => return,
             };
+            let numbers = walk.numbers();
+
+            // Light that arrives there.
+            if !vertex.bsdf.is_specular() {
+                let arrival = Arrival { first, vertex, u: numbers.connection };
+                if self.owns(start, &arrival) {
+                    collector.arrive::<INTERIORS>(walk, start, arrival);
+                }
+                first = first.then(vertex);
+                // What is lit directly belongs to camera paths, and all that follows from it.
+                let local = self.scene.lights[start.light as usize].is_local();
+                if self.caustics_only && first == First::Diffuse && !local {
+                    return;
+                }
+                if !vertex.bsdf.is_rough() && !walk.carried.end_bundle() {
+                    return;
+                }
+            }
+
+            // The next ray.
+            let scattering = walk.scatter(vertex, &numbers);
             if first == First::Nothing {
                 first = First::Specular;
             }
-            if let Some(ways) = parted {
-                for way in 0..ways {
-                    if walk.set_out(way) {
-                        self.follow::<DISPERSION, INTERIORS>(walk, start, first, collector);
-                    }
+            match scattering {
+                Scattering::Ended => return,
+                Scattering::Along(_) => {}
+                Scattering::Parted => {
+                    walk.each_way(|walk| self.follow::<INTERIORS>(walk, start, first, collector));
+                    return;
                 }
-                break;
             }
-            if !walk.survives(u[3]) {
-                break;
+            if !walk.survives(numbers.roulette) {
+                return;
             }
         }
     }
@@ -210,22 +188,22 @@ impl LightTracer<'_> {
             || match arrival.first {
                 First::Nothing => false,
                 First::Specular => true,
-                First::Glossy { then_matte } => local || then_matte || !arrival.bsdf.is_rough(),
+                First::Glossy { then_matte } => local || then_matte || !arrival.vertex.bsdf.is_rough(),
                 First::Diffuse => local,
             }
     }
 }
 
-/// Correction of light paths where shading and geometric normal differ. Camera paths see a diffuse surface as
-/// f |wi·n_s| whatever side of n_s they come from; the adjoint of that is f |wo·n_s| |wi·n_g| / |wo·n_g| with wo towards
-/// the light [Veach1997, 5.3]. So light arrives by n_s, which is this factor, and leaves by n_g.
-fn adjoint(frame: &Frame, wo: Vec3) -> f32 {
-    let geometric = frame.geometric.as_vec3();
-    if geometric == frame.shading {
-        return 1.0;
+impl First {
+    /// What a path met first, with a vertex that is not specular.
+    fn then(self, vertex: &Vertex) -> Self {
+        match self {
+            Self::Nothing if vertex.is_glossy() => Self::Glossy { then_matte: false },
+            Self::Nothing => Self::Diffuse,
+            Self::Glossy { .. } if !vertex.bsdf.is_rough() => Self::Glossy { then_matte: true },
+            _ => self,
+        }
     }
-    let factor = wo.dot(frame.shading).max(0.0) / wo.dot(geometric).abs();
-    if factor.is_finite() { factor } else { 0.0 }
 }
 
 /// Collects what the camera sees of light paths.
@@ -301,43 +279,32 @@ impl Collector for Splatter<'_> {
 
     /// What the camera sees of the light that a path brings to a diffuse surface.
     fn arrive<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start, arrival: Arrival) {
-        let Arrival { surface, bsdf, frame, u, .. } = arrival;
+        let &Vertex { surface, ref bsdf, frame, wo, .. } = arrival.vertex;
         let scene = walk.scene;
-        let Some(seen) = scene.camera.connect(surface.point, u, self.filter.radius()) else { return };
+        let Some(seen) = scene.camera.connect(surface.point, arrival.u, self.filter.radius()) else { return };
         let wi = (seen.lens - surface.point).normalize_or_zero();
-        let wo = -walk.ray.direction;
-        let reflected = bsdf.eval(&frame.without_shading(), wo, wi) * adjoint(frame, wo);
+        let reflected = bsdf.eval(&frame.without_shading(), wo, wi) * adjoint(&frame, wo);
         if reflected.is_zero() {
             return;
         }
         let crosses = !frame.same_side(wo, wi);
         let Some(transmittance) = walk.visibility::<INTERIORS>(surface, wi, Some(seen.lens), crosses) else { return };
-        let radiance = start.power * walk.throughput * reflected * transmittance;
-        let weight = self.weight(scene, &arrival, (wo, wi));
+        let radiance = start.power * walk.carried.throughput * reflected * transmittance;
+        let weight = self.weight(scene, &arrival, wi);
         self.deposit(scene, seen.film, radiance * (weight * seen.importance));
     }
 }
 
 impl Splatter<'_> {
-    /// Weight of a light path that has come along -`wo` against the camera path that comes along -`wi`.
-    fn weight(
-        &self,
-        scene: &Scene,
-        Arrival { first, surface, bsdf, frame, .. }: &Arrival,
-        (wo, wi): (Vec3, Vec3),
-    ) -> SampledSpectrum {
-        let (First::Specular, Some(density)) = (first, self.density) else { return SampledSpectrum::ONE };
+    /// Weight of a light path that goes on to the camera along `wi`, against the camera path that comes from there.
+    fn weight(&self, scene: &Scene, arrival: &Arrival, wi: Vec3) -> SampledSpectrum {
+        let (First::Specular, Some(density)) = (arrival.first, self.density) else { return SampledSpectrum::ONE };
+        let &Vertex { surface, ref bsdf, ref frame, wo, .. } = arrival.vertex;
         if !bsdf.is_rough() {
             return SampledSpectrum::splat(balance_heuristic(density.matte(), camera_density(scene, surface, wi)));
         }
-        let camera = match bsdf {
-            Bsdf::RoughDielectric(boundary) => {
-                let (reversed, frame) = boundary.reversed(frame, !frame.same_side(wo, wi));
-                rough_camera_density(scene, surface, &Bsdf::RoughDielectric(reversed), &frame, (wi, wo))
-            }
-            _ => rough_camera_density(scene, surface, bsdf, frame, (wi, wo)),
-        };
-        let camera = camera.lanes();
+        let (reversed, frame) = bsdf.reversed(frame, !frame.same_side(wo, wi));
+        let camera = rough_camera_density(scene, surface, &reversed, &frame, wi, wo).lanes();
         SampledSpectrum::from_fn(|lane| balance_heuristic(density.0, camera[lane]))
     }
 }

@@ -1,16 +1,14 @@
 //! A short render, thrown away, from which the plan learns: how many lanes are worth following, and where light paths
 //! start.
 
-use super::Renderer;
-use super::fork::Branching;
-use super::guide::Experience;
-use super::light::{LightTracer, Splatter};
 use super::passes::{block, block_count};
 use super::plan::Plan;
-use super::techniques::Techniques;
-use super::walk::Parting;
-use super::workspace::{Counters, Workspace};
+use super::renderer::Renderer;
+use super::streams::pilot_seed;
+use crate::bsdf::{Branching, Parting};
 use crate::film::{Filter, Xyz};
+use crate::render::paths::{Counters, Place, Workspace};
+use crate::render::techniques::{Experience, LightTracer, Splatter, Techniques};
 use crate::sampling::{Sobol, mix};
 use rayon::prelude::*;
 
@@ -74,7 +72,7 @@ impl Brightness {
     }
 }
 
-impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION, INTERIORS> {
+impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
     /// The plan of this renderer, bettered by a pilot if that pays.
     pub fn piloted(self) -> (Self, Counters) {
         let light = matches!(self.plan.techniques, Techniques::CameraAndLight { .. });
@@ -131,10 +129,6 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
         y * self.film.width + x
     }
 
-    fn pilot_seed(&self) -> u64 {
-        mix(self.settings.seed ^ 0x7069_6c6f_7421)
-    }
-
     fn camera_trial(&self, ways: u8) -> CameraTrial {
         let [across, down] = self.squares();
         let rows: Vec<(Vec<[Xyz; SAMPLES as usize]>, u64)> = (0..down)
@@ -147,9 +141,8 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                         let pixel = self.pilot_pixel(row * across + column);
                         std::array::from_fn(|sample| {
                             let branching = Branching { parting: Parting::Ways(ways), ..self.plan.camera };
-                            let stream = (self.pilot_seed(), branching);
-                            let at = self.column_and_row(pixel);
-                            let xyz = self.camera_sample(workspace, at, sample as u64, stream).xyz;
+                            let (seed, at) = (pilot_seed(self.settings.seed), self.column_and_row(pixel));
+                            let xyz = self.camera_sample(workspace, at, sample as u64, seed, branching).xyz;
                             if xyz.iter().all(|v| v.is_finite()) { xyz } else { Xyz::default() }
                         })
                     });
@@ -164,7 +157,7 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
     fn light_trial(&self, ways: u8) -> LightTrial {
         let blocks = block_count((self.scene.camera.pixels() / 2).clamp(1, LIGHT_PATHS));
         let filter = Filter::boxed(0.5);
-        let sobol = Sobol::new(mix(self.pilot_seed() ^ u64::from(ways)));
+        let sobol = Sobol::new(mix(pilot_seed(self.settings.seed) ^ u64::from(ways)));
         let results: Vec<(Vec<LightTrialPath>, u64)> = (0..blocks)
             .into_par_iter()
             .map_init(
@@ -173,11 +166,12 @@ impl<'a, const DISPERSION: bool, const INTERIORS: bool> Renderer<'a, DISPERSION,
                     workspace.counters = Counters::default();
                     let branching = Branching { parting: Parting::Ways(ways), ..self.plan.light };
                     let tracer = LightTracer { branching, ..self.light_tracer() };
-                    let mut splatter = Splatter::new(&self.sensor, &filter, &self.plan.techniques);
+                    let mut splatter = Splatter::new(&self.film.sensor, &filter, &self.plan.techniques);
                     let paths = block(index)
                         .filter_map(|index| {
                             splatter.start = None;
-                            tracer.trace::<DISPERSION, INTERIORS>(workspace, (sobol, index), None, &mut splatter);
+                            let place = Place { sobol, index };
+                            tracer.trace::<INTERIORS>(workspace, place, None, &mut splatter);
                             let (light, numbers) = splatter.start?;
                             let hits = splatter.splats.drain(..).map(|s| (s.pixel, s.xyz)).collect();
                             Some(LightTrialPath { light, numbers, hits })

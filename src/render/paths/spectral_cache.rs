@@ -1,0 +1,63 @@
+//! Spectra at the wavelengths of the current path, each evaluated once.
+
+use crate::bsdf::Indices;
+use crate::scene::{MediumId, Scene, SpectrumId};
+use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
+
+/// Spectra and indices of refraction at a path's wavelengths, evaluated when first asked for.
+#[derive(Debug)]
+pub struct SpectralCache {
+    wavelengths: Wavelengths,
+    /// The path that an entry belongs to.
+    path: u64,
+    spectra: Vec<(u64, SampledSpectrum)>,
+    media: Vec<(u64, Indices)>,
+}
+
+impl SpectralCache {
+    /// An empty cache for the spectra and media of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        Self {
+            wavelengths: Wavelengths { lambda_nm: [550.0; LANES], pdf: [1.0; LANES] },
+            path: 0,
+            spectra: vec![(0, SampledSpectrum::ZERO); scene.spectra.len()],
+            media: vec![(0, Indices::AIR); scene.media.len()],
+        }
+    }
+
+    /// Starts a path with other wavelengths, which forgets all values of the last one.
+    pub fn begin(&mut self, wavelengths: Wavelengths) {
+        self.wavelengths = wavelengths;
+        self.path += 1;
+    }
+
+    /// Returns a spectrum at the path's wavelengths.
+    #[inline]
+    pub fn spectrum(&mut self, scene: &Scene, id: SpectrumId) -> SampledSpectrum {
+        let (path, value) = &mut self.spectra[id.0 as usize];
+        if *path != self.path {
+            *path = self.path;
+            *value = scene.spectra[id.0 as usize].sample(&self.wavelengths);
+        }
+        *value
+    }
+
+    /// Returns the indices of a medium at the path's wavelengths; `None` is air.
+    #[inline]
+    pub fn indices(&mut self, scene: &Scene, medium: Option<MediumId>) -> Indices {
+        let Some(id) = medium else { return Indices::AIR };
+        let (path, value) = &mut self.media[id.0 as usize];
+        if *path != self.path {
+            *path = self.path;
+            let medium = &scene.media[id.0 as usize];
+            let dispersive = medium.dispersive;
+            value.dispersive = dispersive;
+            if dispersive {
+                value.eta = self.wavelengths.lambda_nm.map(|lambda| medium.ior.eval(f64::from(lambda)));
+            } else {
+                value.eta = [medium.ior.eval(f64::from(self.wavelengths.lambda_nm[0])); LANES];
+            }
+        }
+        *value
+    }
+}
