@@ -3,9 +3,7 @@
 use std::path::PathBuf;
 
 use super::JsonPath;
-use super::codec::{
-    Choice, Codec, FileName, Form, Kind, Name, Number, Numbers, Object, Range, Record, Value, describe,
-};
+use super::codec::{Choice, Codec, FileName, Kind, Name, Number, Numbers, Object, Range, Record, Value, describe};
 use super::json::Json;
 use super::spectrum::table;
 use super::text::quote;
@@ -60,13 +58,13 @@ pub enum IorKind {
 }
 
 #[rustfmt::skip] // one form a line
-const FORMS: &[Form<IorKind>] = &[
-    Form { key: "glass", what: "a glass", doc: "A glass of the catalogue.", read: glass },
-    Form { key: "sellmeier", what: "a Sellmeier formula", doc: "A dispersion formula.", read: sellmeier },
-    Form { key: "cauchy_um", what: "a Cauchy formula", doc: "A dispersion formula.", read: cauchy },
-    Form { key: "nd", what: "an index by its Abbe number", doc: "Cauchy's formula through n_d and V_d.", read: abbe },
-    Form { key: "wavelengths_nm", what: "a tabulated index", doc: "Piecewise linear.", read: tabulated },
-    Form { key: "file", what: "an index in a file", doc: "A record of refractiveindex.info.", read: file },
+const FORMS: &[Variant<IorKind>] = &[
+    Variant { name: "glass", what: "a glass", doc: "A glass of the catalogue.", read: glass },
+    Variant { name: "sellmeier", what: "a Sellmeier formula", doc: "A dispersion formula.", read: sellmeier },
+    Variant { name: "cauchy_um", what: "a Cauchy formula", doc: "A dispersion formula.", read: cauchy },
+    Variant { name: "nd", what: "an index by its Abbe number", doc: "Cauchy's formula through n_d and V_d.", read: abbe },
+    Variant { name: "wavelengths_nm", what: "a tabulated index", doc: "Piecewise linear.", read: tabulated },
+    Variant { name: "file", what: "an index in a file", doc: "A record of refractiveindex.info.", read: file },
 ];
 
 /// Ways to extrapolate.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::JsonPath;
 use super::codec::{
-    Array, Bool, Codec, FileName, Form, Kind, Name, Number, Numbers, Object, Range, Record, Value, describe, error,
+    Array, Bool, Codec, FileName, Kind, Name, Number, Numbers, Object, Range, Record, Value, Variant, describe, error,
 };
 use super::context::{Context, Extent};
 use super::json::Json;
@@ -74,17 +74,17 @@ pub enum SpectrumKind {
 }
 
 #[rustfmt::skip] // one form a paragraph
-const FORMS: &[Form<SpectrumKind>] = &[
-    Form { key: "name", what: "a spectrum by name", doc: "One of `spectra`.", read: named },
-    Form { key: "wavelengths_nm", what: "a tabulated spectrum", read: tabulated,
-           doc: "Piecewise linear; constant beyond its ends, with a warning if they lie inside 400–700 nm." },
-    Form { key: "file", what: "a spectrum in a file", doc: "Piecewise linear, read from a file.", read: file },
-    Form { key: "rgb", what: "an RGB spectrum", read: rgb,
-           doc: "A colour, upsampled as a reflectance (white is exactly 1) or as an emission (white develops to RGB [1, 1, 1]), \
+const FORMS: &[Variant<SpectrumKind>] = &[
+    Variant { name: "name", what: "a spectrum by name", doc: "One of `spectra`.", read: named },
+    Variant { name: "wavelengths_nm", what: "a tabulated spectrum", read: tabulated,
+              doc: "Piecewise linear; constant beyond its ends, with a warning if they lie inside 400–700 nm." },
+    Variant { name: "file", what: "a spectrum in a file", doc: "Piecewise linear, read from a file.", read: file },
+    Variant { name: "rgb", what: "an RGB spectrum", read: rgb,
+              doc: "A colour, upsampled as a reflectance (white is exactly 1) or as an emission (white develops to RGB [1, 1, 1]), \
                  according to where it stands; not for absorption, eta or k." },
-    Form { key: "illuminant", what: "an illuminant", doc: "A standard illuminant, normalised to luminance Y = 1.", read: illuminant },
-    Form { key: "blackbody_kelvin", what: "a black body", doc: "Planck's law.", read: blackbody },
-    Form { key: "line_nm", what: "a spectral line", doc: "A Gaussian of unit area.", read: line },
+    Variant { name: "illuminant", what: "an illuminant", doc: "A standard illuminant, normalised to luminance Y = 1.", read: illuminant },
+    Variant { name: "blackbody_kelvin", what: "a black body", doc: "Planck's law.", read: blackbody },
+    Variant { name: "line_nm", what: "a spectral line", doc: "A Gaussian of unit area.", read: line },
 ];
 
 /// What a bare string stands for.

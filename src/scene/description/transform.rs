@@ -1,6 +1,6 @@
 //! Transforms of objects.
 
-use super::codec::{Array, Checked, Defined, Form, List, Number, NumberOr, Object, Range, Record, Value};
+use super::codec::{Array, Checked, Defined, List, Number, NumberOr, Object, Range, Record, Value, Variant};
 use super::text::show;
 use super::vector::{DIRECTION, PARALLEL, POINT, cross, unit};
 use crate::{Error, ErrorKind, Result};
@@ -36,11 +36,11 @@ const STEP: Defined<Record<TransformStep>> = Defined {
 };
 
 #[rustfmt::skip] // one form a line
-const STEPS: &[Form<TransformStep>] = &[
-    Form { key: "translate", what: "a translation", doc: "A shift.", read: translate },
-    Form { key: "rotate_degrees", what: "a rotation", doc: "A rotation about an axis through the origin.", read: rotate },
-    Form { key: "scale", what: "a scaling", doc: "A scaling about the origin.", read: scale },
-    Form { key: "matrix", what: "a matrix", doc: "An affine map.", read: matrix },
+const STEPS: &[Variant<TransformStep>] = &[
+    Variant { name: "translate", what: "a translation", doc: "A shift.", read: translate },
+    Variant { name: "rotate_degrees", what: "a rotation", doc: "A rotation about an axis through the origin.", read: rotate },
+    Variant { name: "scale", what: "a scaling", doc: "A scaling about the origin.", read: scale },
+    Variant { name: "matrix", what: "a matrix", doc: "An affine map.", read: matrix },
 ];
 
 fn translate(o: &mut Object) -> Result<TransformStep> {

@@ -8,7 +8,7 @@ mod values;
 
 pub use kind::{Field, Kind, MAX_NAMES, MAX_TEXT, Need, NumbersKind, Range, Rule, Table};
 pub use lists::{Array, List, Map, Numbers, Tuples};
-pub use object::{Form, Object, Record, Variant, describe};
+pub use object::{Object, Record, Variant, describe};
 pub use values::{Bool, Checked, Choice, Defined, FileName, Integer, KnownName, Name, Number, NumberOr, Text};
 
 use super::context::{Context, with_nearest};

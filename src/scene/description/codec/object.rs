@@ -37,23 +37,11 @@ struct Reading<'a> {
     missing_by_rule: bool,
 }
 
-/// One kind of an object, told by the value of a tag.
+/// One kind of an object, told by the value of a tag or by its first key.
 pub struct Variant<T> {
-    /// The tag's value.
+    /// The tag's value, or the key.
     pub name: &'static str,
     /// With its article: "a sphere".
-    pub what: &'static str,
-    /// What it is.
-    pub doc: &'static str,
-    /// Declares and reads the keys that it has beside the common ones.
-    pub read: fn(&mut Object) -> Result<T>,
-}
-
-/// One form of an object, told by its first key.
-pub struct Form<T> {
-    /// The key.
-    pub key: &'static str,
-    /// With its article: "a spectral line".
     pub what: &'static str,
     /// What it is.
     pub doc: &'static str,
@@ -196,49 +184,39 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// The kind of object that `tag` tells.
+    /// The kind of object that the value of `tag` tells.
     pub fn tagged<T>(&mut self, tag: &'static str, variants: &[Variant<T>]) -> Result<T> {
-        match &mut self.file {
-            None => {
-                let described = variants.iter().map(|v| (v.name, describe(v.what, v.doc, v.read)));
-                let (tables, placeholders): (Vec<_>, Vec<T>) =
-                    described.map(|(name, (table, placeholder))| ((name, table), placeholder)).unzip();
-                (self.table.tag, self.table.variants) = (Some(tag), tables);
-                Ok(placeholders.into_iter().next().expect("an object of variants has at least one"))
-            }
-            Some(reading) => {
-                reading.ask(tag);
-                let names = variants.iter().map(|variant| variant.name);
-                let json = reading.get(tag).ok_or_else(|| {
-                    let valid = names.clone().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
-                    let message = format!("missing key `{tag}`; {} has one of {valid}", self.what);
-                    reading.value.error(ErrorKind::Missing, message)
-                })?;
-                let path = Path::Key(reading.value.path, tag);
-                let value = Value { json, path: &path, context: reading.value.context };
-                let index = find_name(&value, &format!("the {tag} of {}", self.what), names)?;
-                self.what = variants[index].what;
-                (variants[index].read)(self)
-            }
-        }
+        let Some(reading) = &mut self.file else {
+            self.table.tag = Some(tag);
+            return Ok(self.describe_variants(variants));
+        };
+        reading.ask(tag);
+        let names = variants.iter().map(|variant| variant.name);
+        let json = reading.get(tag).ok_or_else(|| {
+            let valid = names.clone().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+            let message = format!("missing key `{tag}`; {} has one of {valid}", self.what);
+            reading.value.error(ErrorKind::Missing, message)
+        })?;
+        let path = Path::Key(reading.value.path, tag);
+        let value = Value { json, path: &path, context: reading.value.context };
+        let variant = &variants[find_name(&value, &format!("the {tag} of {}", self.what), names)?];
+        self.what = variant.what;
+        (variant.read)(self)
     }
 
-    /// The form of an object that its first key tells.
-    pub fn form<T>(&mut self, forms: &[Form<T>]) -> Result<T> {
-        match &self.file {
-            None => {
-                let described = forms.iter().map(|form| (form.key, describe(form.what, form.doc, form.read)));
-                let (tables, placeholders): (Vec<_>, Vec<T>) =
-                    described.map(|(key, (table, placeholder))| ((key, table), placeholder)).unzip();
-                self.table.variants = tables;
-                Ok(placeholders.into_iter().next().expect("an object of forms has at least one"))
-            }
-            Some(reading) => {
-                let form = chosen_form(self.what, reading, forms)?;
-                self.what = form.what;
-                (form.read)(self)
-            }
-        }
+    /// The kind of object that its first key tells. Keys that all kinds have are asked for before.
+    pub fn form<T>(&mut self, variants: &[Variant<T>]) -> Result<T> {
+        let Some(reading) = &self.file else { return Ok(self.describe_variants(variants)) };
+        let variant = chosen_form(self.what, reading, variants)?;
+        self.what = variant.what;
+        (variant.read)(self)
+    }
+
+    fn describe_variants<T>(&mut self, variants: &[Variant<T>]) -> T {
+        let described = variants.iter().map(|variant| describe(variant.what, variant.doc, variant.read));
+        let (tables, placeholders): (Vec<Table>, Vec<T>) = described.unzip();
+        self.table.variants = variants.iter().map(|variant| variant.name).zip(tables).collect();
+        placeholders.into_iter().next().expect("an object of variants has at least one")
     }
 
     /// One set of keys out of several; `read` asks for the keys of the set whose index it gets.
@@ -335,14 +313,14 @@ pub fn check_comment(value: &Value) -> Result<()> {
 }
 
 /// The form whose key the object has.
-fn chosen_form<'f, T>(what: &str, reading: &Reading, forms: &'f [Form<T>]) -> Result<&'f Form<T>> {
-    let keys = || forms.iter().map(|form| form.key);
+fn chosen_form<'f, T>(what: &str, reading: &Reading, forms: &'f [Variant<T>]) -> Result<&'f Variant<T>> {
+    let keys = || forms.iter().map(|form| form.name);
     let only_one = || format!("{what} has just one of {}", keys().collect::<Vec<_>>().join(", "));
-    let mut told = reading.entries.iter().filter_map(|(key, _)| forms.iter().find(|form| form.key == key));
+    let mut told = reading.entries.iter().filter_map(|(key, _)| forms.iter().find(|form| form.name == key));
     if let Some(form) = told.next() {
         let Some(other) = told.next() else { return Ok(form) };
-        let message = format!("`{}` does not go with `{}`: {}", other.key, form.key, only_one());
-        return Err(error(ErrorKind::UnknownKey, &Path::Key(reading.value.path, other.key), message));
+        let message = format!("`{}` does not go with `{}`: {}", other.name, form.name, only_one());
+        return Err(error(ErrorKind::UnknownKey, &Path::Key(reading.value.path, other.name), message));
     }
     // A form whose first key is missing is told by another of its keys.
     let tables: Vec<Table> = forms.iter().map(|form| describe(form.what, form.doc, form.read).0).collect();
