@@ -72,6 +72,22 @@ fn coincident_faces() {
     }
 }
 
+/// The same with panes that are boxes and a liquid that is a cylinder between them.
+#[test]
+fn boxes_and_cylinders_touch() {
+    let pane = |bottom: f64, top: f64| json!({ "material": "glass", "shape": { "type": "box", "min": [-4, bottom, -4], "max": [4, top, 4] } });
+    let liquid = json!({ "material": "liquid", "shape": { "type": "cylinder", "radius": 3, "height": 0.06 },
+        "transform": [{ "translate": [0, 0.07, 0] }] });
+    for degrees in [0.0, 55.0] {
+        let materials = json!({ "glass": dielectric(1.62, 1, 0.0), "liquid": dielectric(1.33, 0, 3.0) });
+        let objects = vec![pane(0.0, 0.04), liquid.clone(), pane(0.1, 0.14)];
+        let between = Layer { index: 1.33, thickness: 0.06, absorption: 3.0 };
+        let (exact, _) = stack(&[layer(1.62, 0.04), between, layer(1.62, 0.04)], sin(degrees));
+        let seen = Estimate::over_seeds(&column(materials, objects, degrees), 8, mean_y);
+        seen.check(&format!("box, cylinder, box at {degrees}°"), exact, 2e-3);
+    }
+}
+
 /// Glass in glass of the same index, overlapping or touching, is one piece: the same bits as one box.
 #[test]
 fn equal_indices_reflect_nothing() {

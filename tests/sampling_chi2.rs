@@ -11,7 +11,7 @@ use abbe::math;
 use abbe::sampling::{
     AliasTable, PiecewiseLinearDensity, concentric_disk, cosine_hemisphere, mix, uniform_cone, uniform_sphere,
 };
-use abbe::scene::{Aim, AreaShape, Light, LightKind, Scene};
+use abbe::scene::{Aim, AreaLight, AreaShape, Light, LightKind, Scene};
 use abbe::spectrum::{SampledSpectrum, WavelengthDensity};
 use common::{chi2_sigmas, compile_json};
 use glam::{DVec3, Vec3};
@@ -181,7 +181,7 @@ fn light_cones() {
     let light: &Light = &scene.lights[0];
     for from in [Vec3::new(0.0, -0.2, 0.0), Vec3::new(-0.2, 0.0, 0.3)] {
         let samples: Vec<_> = (0..SAMPLES).map(|i| light.sample(&scene, from, pair(i, 0)).unwrap()).collect();
-        let LightKind::Area { shape: AreaShape::Sphere { center, .. }, .. } = light.kind else { panic!() };
+        let LightKind::Area(AreaLight { shape: AreaShape::Sphere { center, .. }, .. }) = light.kind else { panic!() };
         let axis = (center - from).as_dvec3().normalize();
         let pdf = samples[0].pdf.unwrap();
         let low = 1.0 - 1.0 / (TAU * f64::from(pdf));
@@ -234,6 +234,22 @@ fn area_lights() {
             "disk light",
             json!({ "shape": { "type": "disk", "center": [0, 0.8, 0.1], "normal": [0.1, -1, 0.1], "radius": 0.5 } }),
         ),
+        ("box light", json!({ "shape": { "type": "box", "min": [-0.3, 0.4, -0.2], "max": [0.2, 0.9, 0.5] } })),
+        (
+            "sheared box light",
+            json!({ "shape": { "type": "box", "min": [-0.3, -0.2, -0.2], "max": [0.2, 0.2, 0.5] },
+            "transform": [{ "matrix": [-1, 0.2, 0, 0, 0.1, 1, 0.3, 0.7, 0, 0, 0.8, 0.1, 0, 0, 0, 1] }] }),
+        ),
+        (
+            "cylinder light",
+            json!({ "shape": { "type": "cylinder", "radius": 0.25, "height": 0.5 },
+            "transform": [{ "rotate_degrees": 50, "axis": [1, 0, 0.5] }, { "translate": [0, 0.7, 0.1] }] }),
+        ),
+        (
+            "open cylinder light",
+            json!({ "shape": { "type": "cylinder", "radius": 0.3, "height": 0.9, "open": true },
+            "transform": [{ "rotate_degrees": 80, "axis": [1, 0, 0.5] }, { "translate": [0, 0.7, 0.1] }] }),
+        ),
     ];
     for (what, mut light) in lights {
         light["emission"] = json!(1);
@@ -262,7 +278,18 @@ fn emission() {
     let sphere = json!({ "emission": 1, "shape": { "type": "sphere", "center": [-0.3, 0.8, 0.1], "radius": 0.1 } });
     let sun =
         json!({ "type": "directional", "direction": [0.3, -1, 0.2], "irradiance": 1, "angular_diameter_degrees": 10 });
-    for (what, light) in [("quad", quad), ("two-sided quad", two_sided), ("sphere", sphere), ("sun", sun)] {
+    let crate_like =
+        json!({ "emission": 1, "shape": { "type": "box", "min": [-0.4, 0.7, -0.3], "max": [-0.2, 0.9, 0.3] } });
+    let tube = json!({ "emission": 1, "shape": { "type": "cylinder", "radius": 0.1, "height": 0.4 },
+        "transform": [{ "rotate_degrees": 70, "axis": [1, 0, 0] }, { "translate": [-0.3, 0.8, 0] }] });
+    for (what, light) in [
+        ("quad", quad),
+        ("two-sided quad", two_sided),
+        ("sphere", sphere),
+        ("sun", sun),
+        ("box", crate_like),
+        ("cylinder", tube),
+    ] {
         let scene = light_scene(light);
         let light = &scene.lights[0];
         // The disc's radiance is what the light's weight contains besides the density.

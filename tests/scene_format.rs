@@ -37,7 +37,7 @@ fn a_minimal_scene_has_the_documented_defaults() {
             height: 2,
             filter: FilterKind::Box,
             filter_radius: 0.5,
-            observer: "1931-2".into(),
+            observer: "1931-2".to_owned(),
         },
         render: RenderDescription { samples_per_pixel: 64, max_depth: 64, seed: 0, integrator: Integrator::Auto },
         spectra: vec![],
@@ -116,7 +116,7 @@ fn the_full_scene_is_read_field_for_field() {
     let file = SpectrumKind::File(PathBuf::from("folder/data/red.csv"));
     assert_eq!(scene.spectra[3].1, SpectrumDescription { kind: file, scale: 2.0, at: "spectra.measured".into() });
 
-    assert_eq!((scene.materials.len(), scene.objects.len(), scene.lights.len()), (11, 14, 4));
+    assert_eq!((scene.materials.len(), scene.objects.len(), scene.lights.len()), (11, 16, 4));
     assert!(!scene.materials[0].1.two_sided);
     let MaterialKind::Dielectric { ior, absorption_per_m, priority, .. } = &scene.materials[4].1.kind else { panic!() };
     assert_eq!((&ior.kind, ior.hold, *priority), (&IorKind::Glass("N-SF11".into()), true, -2));
@@ -144,6 +144,8 @@ fn the_full_scene_is_read_field_for_field() {
         blend: 0.2,
     };
     assert_eq!(scene.objects[12].shape, ShapeDescription::Implicit(union));
+    assert_eq!(scene.objects[15].shape, ShapeDescription::Cylinder { radius: 1.0, height: 2.0, open: true });
+    assert_eq!(scene.objects[14].shape, ShapeDescription::Box { min: [0.0; 3], max: [1.0, 2.0, 3.0] });
     assert!(warnings.is_empty(), "{warnings:?}");
 }
 

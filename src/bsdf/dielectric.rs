@@ -89,7 +89,7 @@ impl Dielectric {
 
     /// Chooses between reflection and refraction by `u`, or takes both where the path forks: the reflection is put aside then.
     /// Where lanes share the ray and the boundary is dispersive, refraction gives a direction to each lane that goes on.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, frame: &Frame, wo: Vec3, carried: &Carried, u: f32) -> Option<BsdfSample> {
         let incidence = Incidence::new(-wo, frame.geometric);
         let division = self.divide(&incidence, carried.lanes, carried.throughput);

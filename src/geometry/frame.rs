@@ -5,9 +5,9 @@ use glam::{DVec3, Vec3};
 /// Normals of a surface at a hit, both turned to the side that is being looked at.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame {
-    /// Of the surface as it is; unit, f64 since specular directions follow from it.
+    /// Unit normal of the surface itself, in f64 since specular directions follow from it.
     pub geometric: DVec3,
-    /// Interpolated where a mesh has vertex normals, else the same.
+    /// Normal interpolated between those of a mesh's vertices, or the geometric one.
     pub shading: Vec3,
 }
 

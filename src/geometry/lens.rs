@@ -1,10 +1,12 @@
 //! The spherical lens: a solid of a cylinder and two faces, as intervals along the ray, so its rim has no gap.
 
-use glam::DVec3;
-
-use super::analytic::LocalHit;
+use super::hit::LocalHit;
+use super::shape::{CurvedFaces, LocalShape, Parametrization, Patch, turns};
+use super::span::Span;
 use super::sphere::ball_span;
 use crate::{Error, ErrorKind, Result};
+use glam::{DAffine3, DVec2, DVec3};
+use std::f64::consts::TAU;
 
 /// A spherical lens about the z axis, its centre at the origin: the points of the cylinder of the given diameter between
 /// face 0, the one towards −z with vertex (0, 0, −thickness/2), and face 1, towards +z.
@@ -28,14 +30,6 @@ struct Face {
 }
 
 const CYLINDER: u8 = 2;
-const NOT_HIT: u8 = 3;
-
-/// A stretch of the ray and the surfaces (0, 1 or `CYLINDER`) at its ends.
-#[derive(Debug, Clone, Copy)]
-struct Span {
-    t: [f64; 2],
-    face: [u8; 2],
-}
 
 impl Lens {
     /// A lens by the radii of curvature of its faces towards −z and +z (positive when convex, infinite when flat), its
@@ -77,41 +71,14 @@ impl Lens {
     }
 
     /// Radius of the rim, and the least and largest z of the solid.
-    pub(super) fn extent(&self) -> (f64, f64, f64) {
+    fn extent(&self) -> (f64, f64, f64) {
         let [least, most] = self.faces.map(|face| face.vertex.min(face.edge) * face.inward);
         (self.rim, least, most)
     }
 
-    /// Whether a point is inside or on the surface.
-    pub fn contains(&self, p: DVec3) -> bool {
-        (0..3).all(|face| self.side(face, p) <= 0.0)
-    }
-
-    /// Negative inside, positive outside of one of the surfaces (within the cylinder, for a face).
-    pub(super) fn side(&self, face: u8, p: DVec3) -> f64 {
-        if face == CYLINDER {
-            return p.x * p.x + p.y * p.y - self.rim * self.rim;
-        }
-        let face = &self.faces[usize::from(face)];
-        let z = p.z * face.inward;
-        if face.radius.is_infinite() {
-            return face.vertex - z;
-        }
-        let r = DVec3::new(p.x, p.y, z - face.center());
-        let ball = r.dot(r) - face.radius * face.radius;
-        // Convex: inside the ball or beyond its centre. Concave: outside the ball and not behind its centre.
-        if face.radius > 0.0 {
-            if r.z >= 0.0 { ball.min(-r.z) } else { ball }
-        } else if r.z <= 0.0 {
-            (-ball).max(-r.z)
-        } else {
-            -ball
-        }
-    }
-
     /// The first t in (0, t_max) at which the line enters or leaves the lens, and the surface there.
-    pub(super) fn first_crossing(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<(f64, u8)> {
-        let cylinder = self.cylinder_span(o, d)?;
+    fn first_crossing(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<(f64, u8)> {
+        let cylinder = Span::cylinder(o.with_z(0.0), d.with_z(0.0), self.rim, CYLINDER)?;
         let mut solid = cylinder;
         // At most two stretches are cut out: one by each concave face.
         let mut cuts = [None; 2];
@@ -142,9 +109,52 @@ impl Lens {
         }
         rest.first_end(t_max)
     }
+}
 
-    /// The hit on the line, moved onto its surface.
-    pub(super) fn intersect(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<LocalHit> {
+impl LocalShape for Lens {
+    fn object_from_local(&self) -> DAffine3 {
+        DAffine3::IDENTITY
+    }
+
+    fn bounds(&self, world_from_local: &DAffine3) -> (DVec3, DVec3) {
+        let DAffine3 { matrix3: m, translation: center } = *world_from_local;
+        let disk = (m.x_axis * m.x_axis + m.y_axis * m.y_axis).map(f64::sqrt);
+        let (rim, least, most) = self.extent();
+        let (a, b) = (center + m.z_axis * least, center + m.z_axis * most);
+        (a.min(b) - disk * rim, a.max(b) + disk * rim)
+    }
+
+    fn is_closed(&self) -> bool {
+        true
+    }
+
+    fn contains(&self, p: DVec3) -> bool {
+        (0..3).all(|face| self.side(face, p) <= 0.0)
+    }
+
+    /// For a face, within the cylinder.
+    fn side(&self, face: u8, p: DVec3) -> f64 {
+        if face == CYLINDER {
+            return p.x * p.x + p.y * p.y - self.rim * self.rim;
+        }
+        let face = &self.faces[usize::from(face)];
+        let z = p.z * face.inward;
+        if face.radius.is_infinite() {
+            return face.vertex - z;
+        }
+        let r = DVec3::new(p.x, p.y, z - face.center());
+        let ball = r.dot(r) - face.radius * face.radius;
+        // Convex: inside the ball or beyond its centre. Concave: outside the ball and not behind its centre.
+        if face.radius > 0.0 {
+            if r.z >= 0.0 { ball.min(-r.z) } else { ball }
+        } else if r.z <= 0.0 {
+            (-ball).max(-r.z)
+        } else {
+            -ball
+        }
+    }
+
+    fn intersect(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<LocalHit> {
         let (t, face) = self.first_crossing(o, d, t_max)?;
         let p = o + d * t;
         let (point, normal) = if face == CYLINDER {
@@ -157,16 +167,43 @@ impl Lens {
         Some(LocalHit { t, point, normal, distance, face })
     }
 
-    /// Where the line is inside the infinite cylinder.
-    fn cylinder_span(&self, o: DVec3, d: DVec3) -> Option<Span> {
-        let flat = DVec3::new(1.0, 1.0, 0.0);
-        let (o, d) = (o * flat, d * flat);
-        let t = if d == DVec3::ZERO {
-            (o.dot(o) <= self.rim * self.rim).then_some((f64::NEG_INFINITY, f64::INFINITY))
-        } else {
-            ball_span(o, d, self.rim)
-        };
-        t.map(|(t0, t1)| Span { t: [t0, t1], face: [CYLINDER; 2] })
+    fn hits(&self, o: DVec3, d: DVec3, t_max: f64) -> bool {
+        self.first_crossing(o, d, t_max).is_some()
+    }
+
+    fn curved_faces(&self) -> CurvedFaces {
+        CurvedFaces { spherical: true, cylindrical: true }
+    }
+
+    fn facets(&self) -> Vec<(DVec3, DVec3)> {
+        let flat = self.faces.iter().filter(|face| face.radius.is_infinite());
+        flat.map(|face| (DVec3::NEG_Z * face.inward, DVec3::Z * (face.vertex * face.inward))).collect()
+    }
+
+    /// Not known: the faces are parts of spheres, whose points are not drawn yet.
+    fn patches(&self, _: &DAffine3) -> Option<Vec<Patch>> {
+        None
+    }
+
+    /// The square around a face, seen from outside with v along y, is [0, 1]². Around the rim, u is the turn about +z.
+    fn parametrization(&self, face: u8, p: DVec3) -> Option<Parametrization> {
+        if face == CYLINDER {
+            let (_, least, most) = self.extent();
+            let uv = DVec2::new(turns(p.y, p.x), (p.z - least) / (most - least));
+            let dp_dv = DVec3::Z * (most - least);
+            return Some(Parametrization { uv, dp_du: TAU * DVec3::new(-p.y, p.x, 0.0), dp_dv });
+        }
+        let face = &self.faces[usize::from(face)];
+        let (_, normal) = face.project(p);
+        // At the rim of a hemisphere the derivatives have no bound.
+        if normal.z == 0.0 {
+            return None;
+        }
+        let size = 2.0 * self.rim;
+        let to_right = -face.inward;
+        let uv = DVec2::new(p.x * to_right, p.y) / size + 0.5;
+        let dp_du = DVec3::new(1.0, 0.0, -normal.x / normal.z) * (size * to_right);
+        Some(Parametrization { uv, dp_du, dp_dv: DVec3::new(0.0, 1.0, -normal.y / normal.z) * size })
     }
 }
 
@@ -182,7 +219,7 @@ impl Face {
     fn convex_span(&self, tag: u8, o: DVec3, d: DVec3, cylinder: &Span) -> Option<Span> {
         let (oz, dz) = (o.z * self.inward, d.z * self.inward);
         if self.radius.is_infinite() {
-            return half_space(oz - self.vertex, dz, tag);
+            return Span::half_space(oz - self.vertex, dz, tag);
         }
         let ball = ball_span(
             DVec3::new(o.x, o.y, oz - self.center()),
@@ -191,7 +228,8 @@ impl Face {
         );
         let ball = ball.map(|(t0, t1)| Span { t: [t0, t1], face: [tag; 2] }.intersection(cylinder));
         let side = self.radius.signum();
-        let beyond = half_space((oz - self.center()) * side, dz * side, tag).map(|span| span.intersection(cylinder));
+        let beyond =
+            Span::half_space((oz - self.center()) * side, dz * side, tag).map(|span| span.intersection(cylinder));
         let solid = |span: &Span| span.t[0] < span.t[1];
         match (ball.filter(solid), beyond.filter(solid)) {
             (Some(a), Some(b)) => Some(a.hull(&b)),
@@ -210,45 +248,6 @@ impl Face {
     }
 }
 
-impl Span {
-    fn intersection(&self, other: &Self) -> Self {
-        let (first, last) = (self.t[0] >= other.t[0], self.t[1] <= other.t[1]);
-        Self {
-            t: [self.t[0].max(other.t[0]), self.t[1].min(other.t[1])],
-            face: [if first { self.face[0] } else { other.face[0] }, if last { self.face[1] } else { other.face[1] }],
-        }
-    }
-
-    fn hull(&self, other: &Self) -> Self {
-        let (first, last) = (self.t[0] <= other.t[0], self.t[1] >= other.t[1]);
-        Self {
-            t: [self.t[0].min(other.t[0]), self.t[1].max(other.t[1])],
-            face: [if first { self.face[0] } else { other.face[0] }, if last { self.face[1] } else { other.face[1] }],
-        }
-    }
-
-    /// The first end in (0, t_max), if the stretch has a length.
-    fn first_end(&self, t_max: f64) -> Option<(f64, u8)> {
-        if self.t[0] >= self.t[1] {
-            return None;
-        }
-        let end = usize::from(self.t[0] <= 0.0);
-        (self.t[end] > 0.0 && self.t[end] < t_max).then_some((self.t[end], self.face[end]))
-    }
-}
-
-/// Where h + t · slope ≥ 0.
-fn half_space(h: f64, slope: f64, face: u8) -> Option<Span> {
-    let root = -h / slope;
-    if slope > 0.0 {
-        Some(Span { t: [root, f64::INFINITY], face: [face, NOT_HIT] })
-    } else if slope < 0.0 {
-        Some(Span { t: [f64::NEG_INFINITY, root], face: [NOT_HIT, face] })
-    } else {
-        (h >= 0.0).then_some(Span { t: [f64::NEG_INFINITY, f64::INFINITY], face: [NOT_HIT; 2] })
-    }
-}
-
 /// Depth of a face of radius r at distance `rim` from the axis, positive if convex: r − √(r² − rim²), without cancellation.
 fn sag(radius: f64, rim: f64) -> f64 {
     if radius.is_infinite() {
@@ -260,7 +259,7 @@ fn sag(radius: f64, rim: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::analytic::tests::Rng;
+    use super::super::random::Rng;
     use super::*;
 
     const FLAT: f64 = f64::INFINITY;

@@ -2,28 +2,43 @@
 
 mod aabb;
 mod analytic;
-pub mod bvh;
+mod bvh;
+mod cuboid;
+mod cylinder;
 mod disk;
 mod frame;
-pub mod implicit;
+mod hit;
+pub(crate) mod implicit;
 mod lens;
 mod mesh;
 mod polyhedron;
+#[cfg(test)]
+mod random;
 mod ray;
-pub mod solids;
+mod shape;
+mod solids;
+mod span;
 mod sphere;
 mod triangle;
 
 pub use aabb::Aabb;
-pub use analytic::{Analytic, AnalyticHit, AnalyticShape};
 pub use bvh::{Bvh, BvhHit, Primitive};
-pub use disk::Disk;
-pub use frame::{Frame, orthonormal_basis};
-pub use implicit::{IMPLICIT_KINDS, Implicit, ImplicitKind};
-pub use lens::Lens;
+pub use frame::Frame;
 pub use mesh::Mesh;
-pub use polyhedron::Polyhedron;
 pub use ray::{Ray, offset_origin};
-pub use solids::{BrilliantCut, TriangleSoup, brilliant, prism};
-pub use sphere::Sphere;
-pub use triangle::{TriangleHit, geometric_normal, sample_triangle, triangle_area};
+pub use shape::Parametrization;
+pub use triangle::{TriangleHit, geometric_normal, sample_triangle};
+
+pub(crate) use analytic::{Analytic, AnalyticShape};
+pub(crate) use cuboid::Cuboid;
+pub(crate) use cylinder::Cylinder;
+pub(crate) use disk::Disk;
+pub(crate) use frame::orthonormal_basis;
+pub(crate) use hit::AnalyticHit;
+pub(crate) use implicit::Implicit;
+pub(crate) use lens::Lens;
+pub(crate) use polyhedron::Polyhedron;
+pub(crate) use shape::Patch;
+pub(crate) use solids::{BrilliantCut, TriangleSoup, brilliant, prism};
+pub(crate) use sphere::Sphere;
+pub(crate) use triangle::triangle_area;

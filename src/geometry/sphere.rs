@@ -1,10 +1,13 @@
 //! The sphere: exact roots in f64 and a hit point on the surface, however far the ray comes from.
 
-use glam::DVec3;
-
+use super::hit::{AnalyticHit, F64_CHAIN, HALF_ULP, LocalHit, inflated};
+use super::shape::{CurvedFaces, LocalShape, Parametrization, Patch, turns};
+use crate::math;
 use crate::{Error, ErrorKind, Result};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
+use std::f64::consts::{PI, TAU};
 
-/// A sphere in object space; under an affine transform an ellipsoid.
+/// A sphere in object space; under an affine transform an ellipsoid. Local space has it about the origin with radius 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sphere {
     /// Centre.
@@ -23,6 +26,130 @@ impl Sphere {
             return Err(Error::new(ErrorKind::OutOfRange, format!("radius is {radius}; expected a positive number")));
         }
         Ok(Self { center, radius })
+    }
+}
+
+impl LocalShape for Sphere {
+    fn object_from_local(&self) -> DAffine3 {
+        DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(self.radius)), self.center)
+    }
+
+    fn bounds(&self, world_from_local: &DAffine3) -> (DVec3, DVec3) {
+        let DAffine3 { matrix3: m, translation: center } = *world_from_local;
+        let half = (m.x_axis * m.x_axis + m.y_axis * m.y_axis + m.z_axis * m.z_axis).map(f64::sqrt);
+        (center - half, center + half)
+    }
+
+    fn is_closed(&self) -> bool {
+        true
+    }
+
+    fn contains(&self, p: DVec3) -> bool {
+        p.length_squared() < 1.0
+    }
+
+    fn side(&self, _: u8, p: DVec3) -> f64 {
+        // (|p| − 1)(|p| + 1)
+        p.length_squared() - 1.0
+    }
+
+    fn intersect(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<LocalHit> {
+        let t = first_crossing(o, d, 1.0, t_max)?;
+        let normal = (o + d * t).normalize();
+        Some(LocalHit { t, point: normal, normal, distance: F64_CHAIN, face: 0 })
+    }
+
+    fn hits(&self, o: DVec3, d: DVec3, t_max: f64) -> bool {
+        first_crossing(o, d, 1.0, t_max).is_some()
+    }
+
+    fn curved_faces(&self) -> CurvedFaces {
+        CurvedFaces { spherical: true, ..CurvedFaces::default() }
+    }
+
+    fn facets(&self) -> Vec<(DVec3, DVec3)> {
+        Vec::new()
+    }
+
+    /// Exact while the sphere stays one.
+    fn patches(&self, world_from_object: &DAffine3) -> Option<Vec<Patch>> {
+        let DMat3 { x_axis: x, y_axis: y, z_axis: z } = world_from_object.matrix3;
+        let scale2 = x.length_squared();
+        let tolerance = 1024.0 * f64::EPSILON * scale2;
+        let similar = [y.length_squared() - scale2, z.length_squared() - scale2, x.dot(y), y.dot(z), z.dot(x)]
+            .into_iter()
+            .all(|difference| difference.abs() <= tolerance);
+        let center = world_from_object.transform_point3(self.center);
+        similar.then(|| vec![Patch::Sphere { center, radius: self.radius * scale2.sqrt() }])
+    }
+
+    /// u is the turn about +y from +x, v runs from the pole at −y to that at +y by angle.
+    fn parametrization(&self, _: u8, p: DVec3) -> Option<Parametrization> {
+        let p = p.normalize_or_zero();
+        let across = math::hypot(p.x, p.z);
+        let (cos, sin) = if across > 0.0 { (p.x / across, -p.z / across) } else { (1.0, 0.0) };
+        Some(Parametrization {
+            uv: DVec2::new(turns(-p.z, p.x), math::atan2(across, -p.y) / PI),
+            dp_du: TAU * DVec3::new(p.z, 0.0, -p.x),
+            dp_dv: PI * DVec3::new(-p.y * cos, across, p.y * sin),
+        })
+    }
+}
+
+/// A sphere that is still one in the world.
+#[derive(Debug, Clone)]
+pub(super) struct PlacedBall {
+    sphere: Sphere,
+    /// Where the unit sphere's axes have gone; needed for surface coordinates alone.
+    axes: Box<DMat3>,
+}
+
+/// How a ball is turned makes no difference to the set of points that it is.
+impl PartialEq for PlacedBall {
+    fn eq(&self, other: &Self) -> bool {
+        self.sphere == other.sphere
+    }
+}
+
+impl PlacedBall {
+    pub fn new(sphere: Sphere, axes: DMat3) -> Self {
+        Self { sphere, axes: Box::new(axes) }
+    }
+
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        let Sphere { center, radius } = self.sphere;
+        (center - radius, center + radius)
+    }
+
+    pub fn contains(&self, point: DVec3) -> bool {
+        let Sphere { center, radius } = self.sphere;
+        point.distance_squared(center) < radius * radius
+    }
+
+    /// The error is that of rounding the point to f32, of f64, and the depth by which a tangent plane touched off its point
+    /// leaves the sphere: e²/2r for a tangential error e.
+    #[inline]
+    pub fn intersect(&self, o: DVec3, d: DVec3, t_max: f64) -> Option<AnalyticHit> {
+        let Sphere { center, radius } = self.sphere;
+        let o = o - center;
+        let t = first_crossing(o, d, radius, t_max)?;
+        let normal = (o + d * t).normalize();
+        let point = center + normal * radius;
+        let rounding = point.abs() * HALF_ULP + (center.abs() + radius) * F64_CHAIN;
+        let error = rounding + 2.0 * rounding.length_squared() / radius;
+        Some(AnalyticHit { t, point, normal, error: inflated(error), face: 0 })
+    }
+
+    #[inline]
+    pub fn hits(&self, o: DVec3, d: DVec3, t_max: f64) -> bool {
+        first_crossing(o - self.sphere.center, d, self.sphere.radius, t_max).is_some()
+    }
+
+    pub fn parametrization(&self, point: DVec3) -> Option<Parametrization> {
+        // Orthogonal axes of one length: the transpose is the inverse up to a factor, which does not count here.
+        let local = self.sphere.parametrization(0, self.axes.transpose() * (point - self.sphere.center))?;
+        let (dp_du, dp_dv) = (*self.axes * local.dp_du, *self.axes * local.dp_dv);
+        Some(Parametrization { uv: local.uv, dp_du, dp_dv })
     }
 }
 
@@ -55,7 +182,7 @@ pub(super) fn first_crossing(o: DVec3, d: DVec3, radius: f64, t_max: f64) -> Opt
 
 #[cfg(test)]
 mod tests {
-    use super::super::analytic::tests::Rng;
+    use super::super::random::Rng;
     use super::super::{Analytic, AnalyticShape, Ray};
     use super::*;
     use glam::{DAffine3, Vec3};

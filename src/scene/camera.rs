@@ -23,12 +23,12 @@ pub struct Camera {
 /// How a point is seen by the camera.
 #[derive(Debug, Clone, Copy)]
 pub struct Connection {
-    /// Where on the film, pixels from the top left corner.
+    /// Position on the film, in pixels from the top left corner.
     pub film: [f32; 2],
     /// The point on the lens.
     pub lens: Vec3,
-    /// 1 / (d² cos³θ a): what the radiance times the cosine at the point is to be multiplied by per unit of area there
-    /// to give the mean radiance of a pixel; a is the pixel's area at distance 1, θ the angle to the axis.
+    /// 1 / (d² cos³θ a), with a the pixel's area at distance 1 and θ the angle to the axis. Multiplied by radiance, the cosine
+    /// at the point, and area there, it gives the mean radiance of a pixel.
     pub importance: f32,
 }
 
@@ -73,7 +73,7 @@ impl Camera {
         Some(Connection { film, lens: position, importance })
     }
 
-    /// Width of a pixel of the same area on the film at distance 1.
+    /// Width of a square pixel of the same area on the film at distance 1.
     pub fn pixel_width(&self) -> f32 {
         self.pixel_area().sqrt()
     }
@@ -89,7 +89,7 @@ impl Camera {
         self.size
     }
 
-    /// Pixels of the film.
+    /// Number of pixels of the film.
     pub fn pixels(&self) -> u64 {
         u64::from(self.size[0]) * u64::from(self.size[1])
     }

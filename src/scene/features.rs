@@ -1,4 +1,4 @@
-//! What a scene needs. Derived from the compiled scene, never asked of the user.
+//! Which mechanisms rendering a scene needs: derived from the compiled scene, never asked of the user.
 
 /// Mechanisms that a scene can do without. Each picks a kernel in which its absence costs nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -22,21 +22,21 @@ pub struct Solid {
 /// How to tell whether a point is inside.
 #[derive(Debug)]
 pub(super) enum SolidShape {
-    /// By the faces that a ray to infinity crosses. The tree over these triangles alone is built when first needed.
+    /// Count the faces that a ray to infinity crosses. The tree over these triangles alone is built when first needed.
     Triangles(Range<usize>, OnceLock<Bvh>),
-    /// By the shape's own equation.
+    /// Ask the shape's own equation.
     Analytic(usize),
 }
 
 impl SolidShape {
-    /// Of the triangles with these indices.
+    /// The solid that the triangles with these indices enclose.
     pub fn triangles(range: Range<usize>) -> Self {
         Self::Triangles(range, OnceLock::new())
     }
 }
 
 impl Solid {
-    /// Whether a point is inside. Faces of other objects, coincident ones too, play no part.
+    /// Whether a point is inside. Faces of other objects, even coincident ones, make no difference.
     pub fn contains(&self, scene: &Scene, point: Vec3) -> bool {
         if !(point.cmpge(self.bounds.min).all() && point.cmple(self.bounds.max).all()) {
             return false;
@@ -132,7 +132,7 @@ struct PlaneSet(HashSet<[i64; 4]>);
 const PLANE_TOLERANCE: f64 = 1.0 / (1 << 16) as f64;
 
 impl PlaneSet {
-    /// In cells, the normal turned to one fixed side.
+    /// A plane's normal, turned to one fixed side, and its distance, both counted in cells.
     fn in_cells((normal, distance): (DVec3, f64)) -> [f64; 4] {
         let [x, y, z] = normal.to_array();
         let leading = [x, y, z].into_iter().max_by(|a, b| a.abs().total_cmp(&b.abs()));
@@ -159,7 +159,7 @@ impl PlaneSet {
 
 impl Solid {
     pub(super) fn of(object: u32, material: &Material, bounds: Aabb, shape: SolidShape) -> Option<Self> {
-        let Material::Dielectric { medium, .. } = *material else { return None };
+        let medium = material.medium()?;
         Some(Self { object, medium, bounds, shape })
     }
 }

@@ -218,6 +218,7 @@ const SHAPES: &[Whole] = &[
     ("smooth union lengths", r#"{"type": "implicit", "surface": "smooth-union", "centers": [[0,0,0], [1,0,0]], "radii": [1]}"#, "wrong_type", "objects[0].shape.radii", "1 radii for 2 centres"),
     ("prism apex", r#"{"type": "prism", "apex_degrees": 180, "side": 1, "length": 1}"#, "out_of_range", "objects[0].shape.apex_degrees", "(0, 180)"),
     ("brilliant crown", r#"{"type": "brilliant", "radius": 1, "crown_degrees": 90}"#, "out_of_range", "objects[0].shape.crown_degrees", "(0, 90)"),
+    ("box without height", r#"{"type": "box", "min": [0, 0, 0], "max": [1, 0, 1]}"#, "degenerate", "objects[0].shape.max[1]", "more than the 0"),
     ("lens of small radius", r#"{"type": "lens", "radii": [0.1, null], "thickness": 0.1, "diameter": 1}"#, "out_of_range", "objects[0].shape.radii[0]", "at least 0.5"),
     ("lens too thin", r#"{"type": "lens", "radii": [0.5, 0.5], "thickness": 0.9, "diameter": 1}"#, "degenerate", "objects[0].shape.thickness", "at least 1"),
     ("lens radius is text", r#"{"type": "lens", "radii": [1, "flat"], "thickness": 0.9, "diameter": 1}"#, "wrong_type", "objects[0].shape.radii[1]", "or null"),

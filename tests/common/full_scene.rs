@@ -51,7 +51,9 @@ pub const FULL: &str = r##"{
     { "shape": { "type": "implicit", "surface": "superquadric", "radii": [1, 2, 3], "exponent_y": 0.5 }, "material": "plain" },
     { "shape": { "type": "implicit", "surface": "gyroid", "period": 1, "thickness": 0.1, "radius": 2 }, "material": "steel" },
     { "shape": { "type": "implicit", "surface": "smooth-union", "centers": [[0, 0, 0], [1, 0, 0]], "radii": [1, 0.5], "blend": 0.2 }, "material": "floor" },
-    { "shape": { "type": "implicit", "surface": "tanglecube", "size": 0.5, "comment": "x" }, "material": "floor" }
+    { "shape": { "type": "implicit", "surface": "tanglecube", "size": 0.5, "comment": "x" }, "material": "floor" },
+    { "shape": { "type": "box", "min": [0, 0, 0], "max": [1, 2, 3] }, "material": "floor" },
+    { "shape": { "type": "cylinder", "radius": 1, "height": 2, "open": true }, "material": "floor" }
   ],
   "lights": [
     { "type": "point", "position": [0, 3, 0], "intensity": { "blackbody_kelvin": 5600, "normalize": false }, "name": "lamp" },

@@ -134,6 +134,8 @@ fn multiply_shape(object: &mut Value, factor: f64) {
         "sphere" => &["center", "radius"],
         "quad" => &["origin", "u", "v"],
         "disk" => &["center", "radius"],
+        "box" => &["min", "max"],
+        "cylinder" => &["radius", "height"],
         "triangles" => &["positions"],
         "torus" => &["major_radius", "minor_radius"],
         "superquadric" => &["radii"],

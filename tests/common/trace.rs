@@ -4,7 +4,7 @@
 
 use abbe::geometry::Ray;
 use abbe::optics::{reflect, refract};
-use abbe::scene::{Compiled, Material, Scene};
+use abbe::scene::{Compiled, Scene};
 use glam::DVec3;
 use serde_json::Value;
 
@@ -90,9 +90,9 @@ impl<'a> Tracer<'a> {
 
     /// Index of what wins among objects: the highest priority, and of equals the one entered last.
     fn index(&self, inside: &[u32], lambda_nm: f64) -> f64 {
-        let medium = |object: &u32| match self.scene.objects[*object as usize].material {
-            Material::Dielectric { medium, .. } => &self.scene.media[medium.0 as usize],
-            _ => panic!("rays are traced through glass alone"),
+        let medium = |object: &u32| {
+            let medium = self.scene.objects[*object as usize].material.medium();
+            &self.scene.media[medium.expect("rays are traced through glass alone").0 as usize]
         };
         inside.iter().map(medium).max_by_key(|m| m.priority).map_or(1.0, |m| m.ior.eval(lambda_nm))
     }

@@ -5,7 +5,10 @@ use crate::scene::description::{
     CameraDescription, FilmDescription, LightKind, MaterialKind, ObjectDescription, SceneDescription, ShapeDescription,
     TransformStep,
 };
-use crate::scene::{Compiled, Material, Scene, SpectrumId, world_mesh};
+use crate::scene::{
+    Compiled, ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, MirrorMaterial, Parameter, Scene,
+    SpectrumId, world_mesh,
+};
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, SpectrumTable};
 use crate::{Error, ErrorKind, Result, math};
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3, Vec3};
@@ -174,9 +177,8 @@ fn table(scene: &Scene, id: SpectrumId) -> &SpectrumTable {
 
 /// Nested and touching volumes mean something else in every renderer.
 fn refuse_overlaps(scene: &Scene, description: &SceneDescription) -> Result<()> {
-    let solids: Vec<usize> = (0..scene.objects.len())
-        .filter(|&i| matches!(scene.objects[i].material, Material::Dielectric { .. }))
-        .collect();
+    let solids: Vec<usize> =
+        (0..scene.objects.len()).filter(|&i| scene.objects[i].material.medium().is_some()).collect();
     for (k, &i) in solids.iter().enumerate() {
         for &j in &solids[k + 1..] {
             let (a, b) = (scene.objects[i].bounds, scene.objects[j].bounds);
@@ -215,13 +217,15 @@ fn object(
 }
 
 fn surface(scene: &Scene, material: Material, at_nm: Option<f64>, place: &str) -> Result<Surface> {
-    let table = |id: SpectrumId| Table::of(table(scene, id), 1.0);
+    let table = |parameter: Parameter| match parameter {
+        Parameter::Spectrum(id) => Table::of(table(scene, id), 1.0),
+    };
     Ok(match material {
-        Material::Black => Surface::Diffuse(Table::Constant(0.0)),
-        Material::Diffuse { reflectance } => Surface::Diffuse(table(reflectance)),
-        Material::Mirror { reflectance } => Surface::Mirror(table(reflectance)),
-        Material::Conductor { eta, k, alpha } => Surface::Conductor(table(eta), table(k), alpha),
-        Material::Dielectric { medium, alpha } => {
+        Material::Black(_) => Surface::Diffuse(Table::Constant(0.0)),
+        Material::Diffuse(DiffuseMaterial { reflectance }) => Surface::Diffuse(table(reflectance)),
+        Material::Mirror(MirrorMaterial { reflectance }) => Surface::Mirror(table(reflectance)),
+        Material::Conductor(ConductorMaterial { eta, k, alpha }) => Surface::Conductor(table(eta), table(k), alpha),
+        Material::Dielectric(DielectricMaterial { medium, alpha }) => {
             let medium = &scene.media[medium.0 as usize];
             if medium.absorption.is_some() {
                 let message =
@@ -276,7 +280,7 @@ fn shape(
         _ => {
             let Some(mesh) = world_mesh(object)? else { return refused("a shape without triangles") };
             let file = format!("{stem}-{index}.ply");
-            let (bytes, smooth) = ply(&mesh, matches!(scene.objects[index].material, Material::Diffuse { .. }));
+            let (bytes, smooth) = ply(&mesh, scene.objects[index].material.uses_shading_normals());
             meshes.push((file.clone(), bytes));
             Ok(Shape::Ply { file, smooth })
         }

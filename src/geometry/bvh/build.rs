@@ -2,7 +2,7 @@
 //! depends on exact minima, maxima and counts alone, so the tree is the same for any number of threads.
 
 use super::super::Aabb;
-use super::collapse::Plan;
+use super::tree::{Item, Plan, Subtree};
 use rayon::prelude::*;
 
 /// Bins per axis.
@@ -15,32 +15,6 @@ const PARALLEL: usize = 4096;
 const BINNING_PIECE: usize = 32_768;
 /// Levels of the binary tree. Where a subtree is about to need more, ranges are halved instead.
 pub(super) const MAX_DEPTH: u32 = 64;
-
-/// One primitive while the tree is built.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Item {
-    pub bounds: Aabb,
-    /// Triangles in their order, then analytic primitives.
-    pub key: u32,
-    pub analytic: bool,
-}
-
-impl Item {
-    /// Twice the centre on an axis; finite bounds may overflow to infinity, which only costs quality.
-    fn place(&self, axis: usize) -> f32 {
-        self.bounds.min[axis] + self.bounds.max[axis]
-    }
-}
-
-/// A binary subtree over a range of the items, with the plan of its collapse.
-#[derive(Debug)]
-pub(super) struct Subtree {
-    pub bounds: Aabb,
-    pub first: usize,
-    pub count: usize,
-    pub plan: Plan,
-    pub children: Option<Box<[Subtree; 2]>>,
-}
 
 /// Builds the tree over items that are reordered into its leaves' order. `first` is the index of `items[0]` in the whole.
 pub(super) fn build(items: &mut [Item], first: usize, depth: u32) -> Subtree {

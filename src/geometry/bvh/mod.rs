@@ -11,12 +11,13 @@ mod collapse;
 mod node;
 #[cfg(test)]
 mod tests;
+mod tree;
 
 use super::triangle::double_area_vector;
 use super::{Aabb, Ray};
-use build::Item;
 use glam::Vec3;
 use node::{Node, PACKET, Packet, RayLanes, Reference, Target, WIDTH};
+use tree::Item;
 use wide::{f32x8, i32x8};
 
 /// Boxes grow by this share of the largest coordinate: the rounding of a vertex relative to a ray's origin (12u), so

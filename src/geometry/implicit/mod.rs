@@ -13,75 +13,19 @@ mod superquadric;
 mod tanglecube;
 mod torus;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 pub use gyroid::Gyroid;
-pub use interval::Interval;
-pub use number::{Differentiable, Dual, Number};
 pub use roots::Field;
 pub use smooth_union::SmoothUnion;
 pub use superquadric::Superquadric;
 pub use tanglecube::Tanglecube;
 pub use torus::Torus;
 
-use super::analytic::LocalHit;
+use super::hit::LocalHit;
+use super::shape::{CurvedFaces, LocalShape, Parametrization, Patch};
 use crate::{Error, ErrorKind, Result};
 use roots::Line;
-
-/// A kind of implicit surface, for listings.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ImplicitKind {
-    /// Its name in scene files.
-    pub name: &'static str,
-    /// What it is, in one line.
-    pub doc: &'static str,
-    /// Names of its parameters and what they mean.
-    pub parameters: &'static [(&'static str, &'static str)],
-}
-
-/// All kinds of implicit surfaces.
-pub const IMPLICIT_KINDS: [ImplicitKind; 5] = [
-    ImplicitKind {
-        name: "torus",
-        doc: "ring torus about the y axis",
-        parameters: &[
-            ("major_radius", "radius of the centre line, m"),
-            ("minor_radius", "radius of the tube, m, below major_radius"),
-        ],
-    },
-    ImplicitKind {
-        name: "superquadric",
-        doc: "superellipsoid: box, cylinder, ellipsoid, octahedron and what lies between",
-        parameters: &[
-            ("radii", "half axes along x, y, z, m"),
-            ("exponent_y", "north-south exponent in [0.1, 2]; 1 is round, small is boxy"),
-            ("exponent_xz", "east-west exponent in [0.1, 2]; 1 is round, small is boxy"),
-        ],
-    },
-    ImplicitKind {
-        name: "gyroid",
-        doc: "wall about a gyroid, cut by a sphere about the origin",
-        parameters: &[
-            ("period", "period of the surface, m"),
-            ("thickness", "thickness of the wall where it is thinnest, m, below period/4"),
-            ("radius", "radius of the sphere, m, at most 100 periods"),
-        ],
-    },
-    ImplicitKind {
-        name: "smooth_union",
-        doc: "spheres melted into each other by a cubic smooth minimum",
-        parameters: &[
-            ("centers", "centres, m, 1 to 256 of them"),
-            ("radii", "radii, m, one a centre"),
-            ("blend", "width of the blend, m, 0 or more"),
-        ],
-    },
-    ImplicitKind {
-        name: "tanglecube",
-        doc: "quartic x^4 - 5x^2 + y^4 - 5y^2 + z^4 - 5z^2 + level = 0 in units of size",
-        parameters: &[("size", "length of one unit, m"), ("level", "constant term in [-100, 18.75); 11.8 by default")],
-    },
-];
 
 /// A built-in implicit surface in object space.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,32 +61,70 @@ impl Implicit {
         for_surface!(self, surface => roots::value_at(surface, p))
     }
 
-    /// The function's gradient, which points outward; 0 at singular points.
-    pub fn gradient(&self, p: DVec3) -> DVec3 {
-        for_surface!(self, surface => roots::gradient(surface, p))
-    }
-
-    /// Corners of an axis-aligned box around the solid.
-    pub fn bounds(&self) -> (DVec3, DVec3) {
-        let Box3 { min, max } = self.object_box();
-        (min, max)
-    }
-
     fn object_box(&self) -> Box3 {
         for_surface!(self, surface => surface.bounds())
     }
 
-    /// The first t in (0, t_max) at which the line crosses the surface.
-    pub(super) fn first_crossing(&self, origin: DVec3, direction: DVec3, t_max: f64) -> Option<f64> {
+    /// The first t in (0, `t_max`) at which the line crosses the surface.
+    fn first_crossing(&self, origin: DVec3, direction: DVec3, t_max: f64) -> Option<f64> {
         let (t0, t1) = self.object_box().clip(origin, direction, t_max)?;
         let line = Line { origin, direction };
         for_surface!(self, surface => roots::first_root(surface, &line, t0, t1))
     }
+}
 
-    /// The first hit on the line, moved onto the surface.
-    pub(super) fn intersect(&self, origin: DVec3, direction: DVec3, t_max: f64) -> Option<LocalHit> {
+impl LocalShape for Implicit {
+    fn object_from_local(&self) -> DAffine3 {
+        DAffine3::IDENTITY
+    }
+
+    fn bounds(&self, world_from_local: &DAffine3) -> (DVec3, DVec3) {
+        let Box3 { min, max } = self.object_box();
+        let m = &world_from_local.matrix3;
+        let (middle, half) = (world_from_local.transform_point3(0.5 * (min + max)), 0.5 * (max - min));
+        let half = m.x_axis.abs() * half.x + m.y_axis.abs() * half.y + m.z_axis.abs() * half.z;
+        (middle - half, middle + half)
+    }
+
+    fn is_closed(&self) -> bool {
+        true
+    }
+
+    fn contains(&self, p: DVec3) -> bool {
+        self.value(p) < 0.0
+    }
+
+    fn side(&self, _: u8, p: DVec3) -> f64 {
+        self.value(p)
+    }
+
+    fn intersect(&self, origin: DVec3, direction: DVec3, t_max: f64) -> Option<LocalHit> {
         let t = self.first_crossing(origin, direction, t_max)?;
         Some(for_surface!(self, surface => project(surface, origin + direction * t, direction, t)))
+    }
+
+    fn hits(&self, origin: DVec3, direction: DVec3, t_max: f64) -> bool {
+        self.first_crossing(origin, direction, t_max).is_some()
+    }
+
+    fn curved_faces(&self) -> CurvedFaces {
+        CurvedFaces::default()
+    }
+
+    fn facets(&self) -> Vec<(DVec3, DVec3)> {
+        Vec::new()
+    }
+
+    /// Not known: the density of points by area has no closed form.
+    fn patches(&self, _: &DAffine3) -> Option<Vec<Patch>> {
+        None
+    }
+
+    fn parametrization(&self, _: u8, p: DVec3) -> Option<Parametrization> {
+        match self {
+            Self::Torus(torus) => Some(torus.parametrization(p)),
+            Self::Superquadric(_) | Self::Gyroid(_) | Self::SmoothUnion(_) | Self::Tanglecube(_) => None,
+        }
     }
 }
 
@@ -208,7 +190,7 @@ fn positive(name: &str, value: f64) -> Result<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::analytic::tests::Rng;
+    use super::super::random::Rng;
     use super::super::sphere;
     use super::*;
 
@@ -414,7 +396,7 @@ mod tests {
             (Implicit::SmoothUnion(SmoothUnion::new(&[[0.1; 3], [0.4, 0.1, 0.0]], &[0.3, 0.2], 0.2).unwrap()), 0.05),
             (Implicit::Tanglecube(Tanglecube::new(0.3, 11.8).unwrap()), 1e-9),
         ] {
-            let (min, max) = surface.bounds();
+            let Box3 { min, max } = surface.object_box();
             let mut rng = Rng::new(16);
             let mut reach = DVec3::NEG_INFINITY;
             for _ in 0..100_000 {

@@ -28,8 +28,6 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
 
 /// The partial derivatives that [`Dual`] needs of the functions of [`Number`].
 pub trait Differentiable: Number {
-    /// The number 0.
-    const ZERO: Self;
     /// Derivative of |x|.
     fn abs_slope(self) -> Self;
     /// Derivative of max(a, b) by a; that by b is 1 minus it.
@@ -96,8 +94,6 @@ impl Number for f64 {
 }
 
 impl Differentiable for f64 {
-    const ZERO: Self = 0.0;
-
     fn abs_slope(self) -> Self {
         if self < 0.0 { -1.0 } else { 1.0 }
     }
@@ -159,11 +155,6 @@ pub struct Dual<T> {
 }
 
 impl<T: Differentiable> Dual<T> {
-    /// A quantity that does not change.
-    pub fn constant(value: T) -> Self {
-        Self { value, slope: T::ZERO }
-    }
-
     /// a-slope · w + b-slope · (1 − w).
     fn blend(a: T, b: T, weight: T) -> T {
         b + weight * (a - b)
@@ -245,7 +236,7 @@ mod tests {
         #[test]
         fn dual_slopes_are_the_derivatives(x in 0.2..2.0f64, y in 0.2..2.0f64, p in 1.0..6.0f64, sign in prop::bool::ANY) {
             let x = if sign { x } else { -x };
-            let c = Dual::constant(y);
+            let c = Dual { value: y, slope: 0.0 };
             let functions: [&dyn Fn(Dual<f64>) -> Dual<f64>; 9] = [
                 &|v| v.square() * c - v,
                 &|v| v.abs().scale(3.0).shift(1.0),

@@ -1,11 +1,13 @@
 //! The torus.
 
-use glam::DVec3;
-
+use super::super::shape::{Parametrization, turns};
 use super::number::Number;
 use super::roots::Field;
 use super::{Box3, positive};
+use crate::math;
 use crate::{Error, ErrorKind, Result};
+use glam::{DVec2, DVec3};
+use std::f64::consts::TAU;
 
 /// A ring torus about the y axis: (√(x² + z²) − R)² + y² = r².
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,6 +28,18 @@ impl Torus {
             ));
         }
         Ok(Self { major, minor })
+    }
+
+    /// u is the turn about +y from +x, v that around the tube from its outermost circle upwards.
+    pub(super) fn parametrization(&self, p: DVec3) -> Parametrization {
+        let across = math::hypot(p.x, p.z);
+        let (out, up) = (across - self.major, p.y);
+        let outward = DVec3::new(p.x, 0.0, p.z) / across;
+        Parametrization {
+            uv: DVec2::new(turns(-p.z, p.x), turns(up, out)),
+            dp_du: TAU * DVec3::new(p.z, 0.0, -p.x),
+            dp_dv: TAU * (DVec3::Y * out - outward * up),
+        }
     }
 
     pub(super) fn bounds(&self) -> Box3 {

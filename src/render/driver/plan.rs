@@ -98,7 +98,7 @@ fn camera_and_light(scene: &Scene, lights: AliasTable) -> Techniques {
 /// All lights that light paths can start from but the environment, by power.
 fn every_light(scene: &Scene) -> AliasTable {
     let weight = |(index, light): (usize, &Light)| match light.kind {
-        LightKind::Environment => 0.0,
+        LightKind::Environment(_) => 0.0,
         _ => f64::from(scene.emission_table.probability(index)),
     };
     AliasTable::new(&scene.lights.iter().enumerate().map(weight).collect::<Vec<_>>())
@@ -106,11 +106,7 @@ fn every_light(scene: &Scene) -> AliasTable {
 
 /// What a technique cannot see of a scene, if there may be anything: its error then says nothing of what it misses.
 pub fn blind_spot(scene: &Scene, integrator: Integrator) -> Option<&'static str> {
-    let without_extent = |light: &Light| match light.kind {
-        LightKind::Point { .. } | LightKind::Spot { .. } | LightKind::Beam { .. } => true,
-        LightKind::Directional { one_minus_cos, .. } => one_minus_cos == 0.0,
-        LightKind::Area { .. } | LightKind::Environment => false,
-    };
+    let without_extent = |light: &Light| !light.has_extent();
     let focuses = scene.caustic_aim.is_some();
     match integrator {
         Integrator::Path | Integrator::Hero if focuses && scene.lights.iter().any(without_extent) => {

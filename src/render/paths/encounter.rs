@@ -5,7 +5,9 @@ use super::walk::Walk;
 use super::workspace::Workspace;
 use crate::bsdf::{Bsdf, Conductor, Dielectric, Diffuse, Ggx, Lanes, Mirror, Parting, RoughConductor, RoughDielectric};
 use crate::geometry::Frame;
-use crate::scene::{Material, MediumId, SpectrumId, Surface};
+use crate::scene::{
+    ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, MediumId, MirrorMaterial, Parameter, Surface,
+};
 use glam::Vec3;
 
 /// Absent boundaries that a path may cross: they do not count as events, and no path may go on for ever.
@@ -13,33 +15,34 @@ const MAX_PASSED: u32 = 1 << 20;
 
 impl Walk<'_> {
     /// Meets the surface at the end of the ray. Boundaries that are optically absent are passed.
-    #[inline]
+    #[inline(always)]
     pub fn encounter<'s, const INTERIORS: bool>(&mut self, surface: &'s Surface) -> Encounter<'s> {
         let object = &self.scene.objects[surface.object as usize];
         let wo = -self.ray.direction;
-        let vertex = |bsdf, frame, entered| {
-            let focuses = object.material.focuses();
-            Encounter::Vertex(Vertex { surface, bsdf, frame, wo, focuses, entered })
-        };
-        if let Some(medium) = object.material.medium() {
+        let focuses = object.material.focuses();
+        if let Material::Dielectric(DielectricMaterial { medium, alpha }) = object.material {
             let (boundary, entered) = self.boundary(surface, medium);
             let Some(boundary) = boundary else { return self.pass(surface, entered) };
             if self.carried.parting == Parting::Terminate && boundary.is_dispersive() {
                 self.carried.leave_to_hero();
             }
             let frame = turned(surface, surface.geometric.dot(self.ray.direction.as_dvec3()) >= 0.0);
-            let bsdf = match object.material.alpha() {
-                0.0 => Bsdf::Dielectric(boundary),
-                alpha => self.rough_dielectric(boundary, Ggx::new(alpha), &frame, wo),
-            };
-            return vertex(bsdf, frame, entered);
+            if alpha == 0.0 {
+                let bsdf = Bsdf::Dielectric(boundary);
+                return Encounter::Vertex(Vertex { surface, bsdf, frame, wo, focuses, entered });
+            }
+            let bsdf = self.rough_dielectric(boundary, Ggx::new(alpha), &frame, wo);
+            return Encounter::Vertex(Vertex { surface, bsdf, frame, wo, focuses, entered });
         }
         let back = surface.geometric.as_vec3().dot(self.ray.direction) > 0.0;
         if back && !object.two_sided {
             return Encounter::Absorbed;
         }
         match self.opaque::<INTERIORS>(object.material) {
-            Some(bsdf) => vertex(bsdf, turned(surface, back), true),
+            Some(bsdf) => {
+                let frame = turned(surface, back);
+                Encounter::Vertex(Vertex { surface, bsdf, frame, wo, focuses, entered: true })
+            }
             None => Encounter::Absorbed,
         }
     }
@@ -50,33 +53,34 @@ impl Walk<'_> {
         let scene = self.scene;
         let spectra = &mut self.workspace.spectra;
         Some(match material {
-            Material::Diffuse { reflectance } => {
-                Bsdf::Diffuse(Diffuse { reflectance: spectra.spectrum(scene, reflectance) })
+            Material::Diffuse(DiffuseMaterial { reflectance }) => {
+                Bsdf::Diffuse(Diffuse { reflectance: spectra.parameter(scene, reflectance) })
             }
-            Material::Mirror { reflectance } => {
-                Bsdf::Mirror(Mirror { reflectance: spectra.spectrum(scene, reflectance) })
+            Material::Mirror(MirrorMaterial { reflectance }) => {
+                Bsdf::Mirror(Mirror { reflectance: spectra.parameter(scene, reflectance) })
             }
-            Material::Conductor { eta, k, alpha } => {
+            Material::Conductor(ConductorMaterial { eta, k, alpha }) => {
                 let facets = self.conductor::<INTERIORS>(eta, k);
                 match alpha {
                     0.0 => Bsdf::Conductor(facets),
                     alpha => Bsdf::RoughConductor(RoughConductor { facets, ggx: Ggx::new(alpha) }),
                 }
             }
-            Material::Black | Material::Dielectric { .. } => return None,
+            Material::Black(_) | Material::Dielectric(_) => return None,
         })
     }
 
-    fn conductor<const INTERIORS: bool>(&mut self, eta: SpectrumId, k: SpectrumId) -> Conductor {
+    fn conductor<const INTERIORS: bool>(&mut self, eta: Parameter, k: Parameter) -> Conductor {
         let Workspace { spectra, interiors, .. } = &mut *self.workspace;
         let outside = if INTERIORS { interiors.medium(self.scene) } else { None };
         Conductor {
-            eta: spectra.spectrum(self.scene, eta),
-            k: spectra.spectrum(self.scene, k),
+            eta: spectra.parameter(self.scene, eta),
+            k: spectra.parameter(self.scene, k),
             eta_outside: spectra.indices(self.scene, outside).eta,
         }
     }
 
+    #[inline(never)]
     fn rough_dielectric(&self, boundary: Dielectric, ggx: Ggx, frame: &Frame, wo: Vec3) -> Bsdf {
         let carried = &self.carried;
         let may_part = carried.lanes == Lanes::Shared && carried.parting.keeps_several();
@@ -88,7 +92,8 @@ impl Walk<'_> {
     /// Returns the boundary at the surface of a transparent object; `None` if it is optically absent: the volume on the
     /// other side is the same, or hidden by one of higher priority. The workspace's `beyond` is what is past it then. The
     /// second value tells whether that is known, see [`super::interiors::Interiors::set_past`].
-    pub(super) fn boundary(&mut self, surface: &Surface, medium: MediumId) -> (Option<Dielectric>, bool) {
+    #[inline(always)]
+    fn boundary(&mut self, surface: &Surface, medium: MediumId) -> (Option<Dielectric>, bool) {
         let Workspace { spectra, interiors, beyond, .. } = &mut *self.workspace;
         let entered = beyond.set_past(interiors, self.scene, surface, medium, self.ray.direction);
         let (from, to) = (interiors.medium(self.scene), beyond.medium(self.scene));

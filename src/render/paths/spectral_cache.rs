@@ -1,7 +1,7 @@
 //! Spectra at the wavelengths of the current path, each evaluated once.
 
 use crate::bsdf::Indices;
-use crate::scene::{MediumId, Scene, SpectrumId};
+use crate::scene::{MediumId, Parameter, Scene, SpectrumId};
 use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
 
 /// Spectra and indices of refraction at a path's wavelengths, evaluated when first asked for.
@@ -40,6 +40,14 @@ impl SpectralCache {
             *value = scene.spectra[id.0 as usize].sample(&self.wavelengths);
         }
         *value
+    }
+
+    /// Returns a material's quantity at the path's wavelengths.
+    #[inline]
+    pub fn parameter(&mut self, scene: &Scene, parameter: Parameter) -> SampledSpectrum {
+        match parameter {
+            Parameter::Spectrum(id) => self.spectrum(scene, id),
+        }
     }
 
     /// Returns the indices of a medium at the path's wavelengths; `None` is air.

@@ -5,10 +5,10 @@ use super::guide::Guide;
 use super::table::{LightPathDensity, Techniques};
 use crate::bsdf::{Branching, Carried};
 use crate::film::{Filter, Sensor, Splat};
-use crate::geometry::{Ray, offset_origin};
+use crate::geometry::Ray;
 use crate::render::paths::{Encounter, Place, Scattering, TransportMode, Vertex, Walk, Workspace, adjoint};
 use crate::sampling::{Draw, balance_heuristic};
-use crate::scene::{Emission, GuidedPair, LightKind, Scene, Surface};
+use crate::scene::{Emission, GuidedPair, Scene, Surface};
 use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
 use glam::Vec3;
 
@@ -243,7 +243,7 @@ impl<'a> Splatter<'a> {
     /// A light that the camera sees directly: its own surface is where the path "ends".
     fn splat_emitter<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start) {
         let scene = walk.scene;
-        let LightKind::Area { area, two_sided, .. } = scene.lights[start.light as usize].kind else { return };
+        let Some(area) = scene.lights[start.light as usize].emitting_area() else { return };
         let from = start.emission.start;
         let Some(seen) = scene.camera.connect(from.point, [0.5; 2], self.filter.radius()) else { return };
         let to_camera = seen.lens - from.point;
@@ -251,18 +251,9 @@ impl<'a> Splatter<'a> {
         if cos <= 0.0 {
             return;
         }
-        // The start belongs to one side of the light: a two-sided one has twice the area to draw from.
-        let per_area = area * if two_sided { 2.0 } else { 1.0 };
-        let surface = Surface {
-            t: 0.0,
-            point: offset_origin(from.point, from.error, from.normal, from.normal),
-            error: Vec3::ZERO,
-            geometric: from.normal.as_dvec3(),
-            shading: from.normal,
-            object: u32::MAX,
-        };
+        let surface = Surface::of_emission(&from);
         if let Some(transmittance) = walk.visibility::<INTERIORS>(&surface, to_camera, Some(seen.lens), false) {
-            self.deposit(scene, seen.film, start.spectrum * transmittance * (per_area * cos * seen.importance));
+            self.deposit(scene, seen.film, start.spectrum * transmittance * (area * cos * seen.importance));
         }
     }
 }

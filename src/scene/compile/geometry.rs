@@ -1,224 +1,15 @@
-//! Shapes become triangles and analytic primitives.
+//! Placed shapes become the triangles and analytic shapes of a scene, at unit size.
 
+use super::compiler::Compiler;
 use super::materials::Materials;
 use super::normalize::Normalization;
-use super::spectra::in_referenced_file;
-use crate::geometry::{
-    Aabb, Analytic, AnalyticShape, BrilliantCut, Disk, Implicit, Lens, Mesh, Polyhedron, Sphere, TriangleSoup,
-    brilliant, implicit, prism,
-};
-use crate::io;
-use crate::math;
-use crate::scene::description::{
-    BrilliantDescription, ImplicitDescription, MaterialKind, ObjectDescription, SceneDescription, ShapeDescription,
-    TransformStep,
-};
+use super::place::Placed;
+use crate::Result;
+use crate::geometry::{Aabb, Analytic, AnalyticShape, Mesh, Polyhedron};
 use crate::scene::solid::SolidShape;
-use crate::scene::{Material, Object, Solid};
-use crate::{Error, ErrorKind, Result};
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use crate::scene::{Black, Material, Object, Solid};
+use glam::{DAffine3, Vec2, Vec3};
 use std::ops::Range;
-
-/// An object's shape, checked, before normalisation.
-pub enum Placed {
-    /// Triangles with vertices in world metres.
-    Mesh(Mesh),
-    /// An analytic shape with its transform.
-    Analytic(AnalyticShape, DAffine3, Aabb),
-}
-
-impl Placed {
-    /// Corners of a box around it, metres.
-    pub fn bounds(&self) -> (DVec3, DVec3) {
-        match self {
-            Self::Mesh(mesh) => mesh
-                .positions
-                .iter()
-                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(*p), max.max(*p))),
-            Self::Analytic(_, _, bounds) => (bounds.min.as_dvec3(), bounds.max.as_dvec3()),
-        }
-    }
-}
-
-/// Builds every object's shape in world metres.
-pub fn place(description: &SceneDescription, warnings: &mut Vec<String>) -> Result<Vec<Placed>> {
-    description
-        .objects
-        .iter()
-        .map(|object| {
-            let placed = place_object(object)?;
-            lint(description, object, &placed, warnings);
-            Ok(placed)
-        })
-        .collect()
-}
-
-/// The triangles of an object in world metres; `None` for a shape that is none of triangles.
-///
-/// # Errors
-/// Whatever is wrong with the shape, a file that it names, or its transform.
-pub fn world_mesh(object: &ObjectDescription) -> Result<Option<Mesh>> {
-    Ok(match place_object(object)? {
-        Placed::Mesh(mesh) => Some(mesh),
-        Placed::Analytic(..) => None,
-    })
-}
-
-fn place_object(object: &ObjectDescription) -> Result<Placed> {
-    let at = format!("{}.shape", object.at);
-    let here = |e: Error| if e.place.is_empty() { e.at(at.clone()) } else { e };
-    let transform_at = format!("{}.transform", object.at);
-    let transform = transform(&object.transform).map_err(|e| e.at(transform_at.clone()))?;
-    // What is wrong with a good shape once it is placed is wrong with the transform, if it has one.
-    let placed_at = if object.transform.is_empty() { at.clone() } else { transform_at };
-    let there = |e: Error| e.at(placed_at.clone());
-    let mesh = match &object.shape {
-        ShapeDescription::Sphere { center, radius } => {
-            let sphere = Sphere::new(DVec3::from(*center), *radius).map_err(here)?;
-            return analytic(AnalyticShape::Sphere(sphere), transform).map_err(there);
-        }
-        ShapeDescription::Disk { center, normal, radius } => {
-            let disk = Disk::new(DVec3::from(*center), DVec3::from(*normal), *radius).map_err(here)?;
-            return analytic(AnalyticShape::Disk(disk), transform).map_err(there);
-        }
-        ShapeDescription::Lens { radii, thickness, diameter } => {
-            let lens = Lens::new(*radii, *thickness, *diameter).map_err(here)?;
-            return analytic(AnalyticShape::Lens(lens), transform).map_err(there);
-        }
-        ShapeDescription::Implicit(surface) => {
-            let surface = implicit_surface(surface).map_err(here)?;
-            return analytic(AnalyticShape::Implicit(surface), transform).map_err(there);
-        }
-        ShapeDescription::Quad { origin, u, v } => {
-            let [o, u, v] = [*origin, *u, *v].map(DVec3::from);
-            let positions = vec![o, o + u, o + u + v, o + v];
-            Mesh { positions, indices: vec![[0, 1, 2], [0, 2, 3]], ..Mesh::default() }
-        }
-        ShapeDescription::Triangles { positions, indices, normals, .. } => Mesh {
-            positions: positions.iter().copied().map(DVec3::from).collect(),
-            indices: indices.clone(),
-            normals: normals.iter().copied().map(DVec3::from).collect(),
-            ..Mesh::default()
-        },
-        ShapeDescription::Mesh { file } => {
-            io::mesh::read(file).map_err(|e| in_referenced_file(e, file, format!("{at}.file")))?
-        }
-        ShapeDescription::Prism { apex_degrees, side, length } => {
-            solid(prism(*apex_degrees, *side, *length).map_err(here)?)
-        }
-        ShapeDescription::Brilliant(cut) => solid(brilliant(&brilliant_cut(cut)).map_err(here)?),
-    };
-    Ok(Placed::Mesh(transformed(mesh, &transform)))
-}
-
-fn brilliant_cut(cut: &BrilliantDescription) -> BrilliantCut {
-    let BrilliantDescription { radius, table, crown_degrees, pavilion_degrees, girdle, star, lower_half } = *cut;
-    BrilliantCut { radius, table, crown_degrees, pavilion_degrees, girdle, star, lower_half }
-}
-
-fn solid(soup: TriangleSoup) -> Mesh {
-    Mesh { positions: soup.positions, indices: soup.indices, ..Mesh::default() }
-}
-
-fn implicit_surface(surface: &ImplicitDescription) -> Result<Implicit> {
-    Ok(match surface {
-        ImplicitDescription::Torus { major_radius, minor_radius } => {
-            Implicit::Torus(implicit::Torus::new(*major_radius, *minor_radius)?)
-        }
-        ImplicitDescription::Superquadric { radii, exponent_y, exponent_xz } => {
-            Implicit::Superquadric(implicit::Superquadric::new(*radii, *exponent_y, *exponent_xz)?)
-        }
-        ImplicitDescription::Gyroid { period, thickness, radius } => {
-            Implicit::Gyroid(implicit::Gyroid::new(*period, *thickness, *radius)?)
-        }
-        ImplicitDescription::SmoothUnion { centers, radii, blend } => {
-            Implicit::SmoothUnion(implicit::SmoothUnion::new(centers, radii, *blend)?)
-        }
-        ImplicitDescription::Tanglecube { size, level } => {
-            Implicit::Tanglecube(implicit::Tanglecube::new(*size, *level)?)
-        }
-    })
-}
-
-fn analytic(shape: AnalyticShape, transform: DAffine3) -> Result<Placed> {
-    let bounds = Analytic::new(shape.clone(), transform)?.bounds();
-    Ok(Placed::Analytic(shape, transform, bounds))
-}
-
-/// The steps of a transform as one map.
-fn transform(steps: &[TransformStep]) -> Result<DAffine3> {
-    let step = |step: &TransformStep| match step {
-        TransformStep::Translate(t) => DAffine3::from_translation(DVec3::from(*t)),
-        TransformStep::Scale(s) => DAffine3::from_scale(DVec3::from(*s)),
-        TransformStep::Rotate { degrees, axis } => DAffine3::from_mat3(rotation(DVec3::from(*axis), *degrees)),
-        TransformStep::Matrix(m) => DAffine3::from_mat3_translation(
-            DMat3::from_cols_array(&[m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]]),
-            DVec3::new(m[3], m[7], m[11]),
-        ),
-    };
-    let whole = steps.iter().fold(DAffine3::IDENTITY, |before, next| step(next) * before);
-    let determinant = whole.matrix3.determinant();
-    if whole.is_finite() && determinant.is_finite() && determinant != 0.0 {
-        return Ok(whole);
-    }
-    let message = "the transform is singular or not finite; expected an invertible one";
-    Err(Error::new(ErrorKind::Degenerate, message))
-}
-
-/// Rotation about an axis through the origin, right-handed \[Rodrigues1840\]. Multiples of 90° are exact.
-fn rotation(axis: DVec3, degrees: f64) -> DMat3 {
-    let turn = degrees.rem_euclid(360.0);
-    let (sin, cos) = match turn {
-        0.0 => (0.0, 1.0),
-        90.0 => (1.0, 0.0),
-        180.0 => (0.0, -1.0),
-        270.0 => (-1.0, 0.0),
-        _ => (math::sin(turn.to_radians()), math::cos(turn.to_radians())),
-    };
-    let a = axis.normalize();
-    let column = |v: DVec3| v * cos + a.cross(v) * sin + a * (a.dot(v) * (1.0 - cos));
-    DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
-}
-
-/// A mesh in world metres, with its front where it was outside also after mirroring.
-fn transformed(mut mesh: Mesh, transform: &DAffine3) -> Mesh {
-    if *transform == DAffine3::IDENTITY {
-        return mesh;
-    }
-    for p in &mut mesh.positions {
-        *p = transform.transform_point3(*p);
-    }
-    let of_normals = transform.matrix3.inverse().transpose();
-    for n in &mut mesh.normals {
-        *n = of_normals * *n;
-    }
-    if transform.matrix3.determinant() < 0.0 {
-        mesh.indices.iter_mut().for_each(|t| t.swap(1, 2));
-    }
-    mesh
-}
-
-/// Warns about glass that has no inside.
-fn lint(description: &SceneDescription, object: &ObjectDescription, placed: &Placed, warnings: &mut Vec<String>) {
-    let is_glass =
-        object.material.is_some_and(|m| matches!(description.materials[m].1.kind, MaterialKind::Dielectric { .. }));
-    let name = object.name.as_ref().map_or(String::new(), |n| format!(" (\"{n}\")"));
-    let mut warn = |text: &str| {
-        warnings.push(format!("{}: {}{name}: {text}", description.file.display(), object.at));
-    };
-    match placed {
-        Placed::Mesh(mesh) if is_glass && !mesh.is_closed() => {
-            warn("a dielectric that is not closed has no inside; light that enters it never leaves");
-        }
-        Placed::Mesh(mesh) if is_glass && mesh.signed_volume() < 0.0 => {
-            warn("the dielectric is inside out: its triangles run clockwise seen from outside");
-        }
-        Placed::Analytic(AnalyticShape::Disk(_), ..) if is_glass => {
-            warn("a dielectric disk has no inside; light that enters it never leaves");
-        }
-        _ => {}
-    }
-}
 
 /// All primitives of a scene, normalised.
 #[derive(Default)]
@@ -226,11 +17,12 @@ pub struct Geometry {
     pub positions: Vec<Vec3>,
     pub triangles: Vec<[u32; 3]>,
     pub normals: Vec<Vec3>,
+    pub uvs: Vec<Vec2>,
     pub triangle_objects: Vec<u32>,
     pub analytic: Vec<Analytic>,
     pub analytic_objects: Vec<u32>,
     pub objects: Vec<Object>,
-    /// Where each object's primitive is.
+    /// What each object has become.
     pub sources: Vec<Source>,
 }
 
@@ -245,19 +37,16 @@ pub enum Source {
 }
 
 impl Geometry {
-    pub fn compile(
-        description: &SceneDescription,
-        placed: Vec<Placed>,
-        normalization: &Normalization,
-        materials: &Materials,
-    ) -> Result<Self> {
+    pub fn compile(compiler: &Compiler, placed: Vec<Placed>, materials: &Materials) -> Result<Self> {
+        let normalization = &compiler.normalization;
         let mut geometry = Self::default();
-        for (object, placed) in description.objects.iter().zip(placed) {
+        for (object, placed) in compiler.description.objects.iter().zip(placed) {
             let index = geometry.objects.len() as u32;
-            let (material, two_sided) = object.material.map_or((Material::Black, false), |m| materials.materials[m]);
+            let (material, two_sided) =
+                object.material.map_or((Material::Black(Black), false), |m| materials.materials[m]);
             let (bounds, source) = match placed {
                 Placed::Mesh(mesh) => {
-                    let is_glass = matches!(material, Material::Dielectric { .. }) && object.emission.is_none();
+                    let is_glass = material.medium().is_some() && object.emission.is_none();
                     geometry.add_mesh(mesh, is_glass, index, normalization)
                 }
                 Placed::Analytic(shape, transform, _) => {
@@ -272,6 +61,9 @@ impl Geometry {
         }
         if geometry.normals.iter().all(|n| *n == Vec3::ZERO) {
             geometry.normals = Vec::new();
+        }
+        if geometry.uvs.iter().all(|uv| uv.is_nan()) {
+            geometry.uvs = Vec::new();
         }
         Ok(geometry)
     }
@@ -301,6 +93,8 @@ impl Geometry {
         self.triangle_objects.resize(self.triangles.len(), object);
         let normal = |i: usize| mesh.normals.get(i).map_or(Vec3::ZERO, |n| n.normalize_or_zero().as_vec3());
         self.normals.extend((0..mesh.positions.len()).map(normal));
+        let uv = |i: usize| mesh.uvs.get(i).map_or(Vec2::NAN, |uv| uv.as_vec2());
+        self.uvs.extend((0..mesh.positions.len()).map(uv));
         let bounds = Aabb::from_points(self.positions[first_vertex as usize..].iter().copied());
         (bounds, Source::Triangles(first..self.triangles.len() as u32))
     }

@@ -1,61 +1,51 @@
 //! Materials and transparent media.
 
-use super::normalize::Normalization;
+use super::compiler::Compiler;
 use super::spectra::{Role, Spectra, in_referenced_file};
 use crate::bsdf::Ggx;
 use crate::io::{catalogue, refractive_index_info};
 use crate::optics::ior::{Extrapolation, IndexOfRefraction};
-use crate::scene::description::{ConductorDescription, IorDescription, IorKind, MaterialKind, SceneDescription};
-use crate::scene::{Material, Medium, MediumId, SpectrumId};
+use crate::scene::description::{ConductorDescription, IorDescription, IorKind, MaterialKind, SpectrumDescription};
+use crate::scene::{
+    ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, Medium, MediumId, MirrorMaterial, Parameter,
+    SpectrumId,
+};
 use crate::spectrum::{PiecewiseLinear, Spectrum};
 use crate::{Error, Result};
 
 /// Materials by the index that objects use, and the media inside dielectrics.
 pub struct Materials {
-    /// With whether the back reflects as the front does.
+    /// Each material, and whether its back reflects as its front does.
     pub materials: Vec<(Material, bool)>,
     pub media: Vec<Medium>,
 }
 
 impl Materials {
-    pub fn compile(
-        description: &SceneDescription,
-        spectra: &mut Spectra,
-        normalization: &Normalization,
-        warnings: &mut Vec<String>,
-    ) -> Result<Self> {
+    pub fn compile(compiler: &mut Compiler) -> Result<Self> {
         let mut media = Vec::new();
         let mut materials = Vec::new();
-        for (_, material) in &description.materials {
+        for (_, material) in &compiler.description.materials {
             let two_sided = material.two_sided;
             let material = match &material.kind {
                 MaterialKind::Diffuse { reflectance } => {
-                    let function = spectra.resolve(reflectance, Role::Reflectance)?;
-                    Material::Diffuse { reflectance: spectra.add(&function, 1.0) }
+                    Material::Diffuse(DiffuseMaterial { reflectance: reflectance_of(reflectance, compiler)? })
                 }
                 MaterialKind::Mirror { reflectance } => {
-                    let function = spectra.resolve(reflectance, Role::Reflectance)?;
-                    Material::Mirror { reflectance: spectra.add(&function, 1.0) }
+                    Material::Mirror(MirrorMaterial { reflectance: reflectance_of(reflectance, compiler)? })
                 }
                 MaterialKind::Conductor { index, roughness } => {
-                    let alpha = alpha(*roughness, &material.at, description, warnings);
-                    conductor(index, alpha, &material.at, spectra)?
+                    let alpha = alpha(*roughness, &material.at, compiler);
+                    conductor(index, alpha, &material.at, &mut compiler.spectra)?
                 }
                 MaterialKind::Dielectric { ior, roughness, absorption_per_m, priority } => {
                     let (ior, warning) = index_of_refraction(ior)?;
-                    let file = description.file.display();
-                    warnings.extend(warning.map(|w| format!("{file}: {}.ior: {w}", material.at)));
-                    let absorption = match absorption_per_m {
-                        None => None,
-                        Some(spectrum) => {
-                            let function = spectra.resolve(spectrum, Role::Coefficient)?;
-                            let absorbs = function.range().1 > 0.0;
-                            absorbs.then(|| spectra.add(&function, normalization.meters_per_unit))
-                        }
-                    };
+                    if let Some(warning) = warning {
+                        compiler.warn(&format!("{}.ior", material.at), &warning);
+                    }
+                    let absorption = absorption(absorption_per_m.as_ref(), compiler)?;
                     media.push(Medium { dispersive: ior.is_dispersive(), ior, absorption, priority: *priority });
-                    let alpha = alpha(*roughness, &material.at, description, warnings);
-                    Material::Dielectric { medium: MediumId(media.len() as u32 - 1), alpha }
+                    let alpha = alpha(*roughness, &material.at, compiler);
+                    Material::Dielectric(DielectricMaterial { medium: MediumId(media.len() as u32 - 1), alpha })
                 }
             };
             materials.push((material, two_sided));
@@ -64,13 +54,26 @@ impl Materials {
     }
 }
 
+fn reflectance_of(spectrum: &SpectrumDescription, compiler: &mut Compiler) -> Result<Parameter> {
+    let function = compiler.spectra.resolve(spectrum, Role::Reflectance)?;
+    Ok(Parameter::Spectrum(compiler.spectra.add(&function, 1.0)))
+}
+
+/// The absorption coefficient by the compiled scene's length; `None` if nothing is absorbed.
+fn absorption(spectrum: Option<&SpectrumDescription>, compiler: &mut Compiler) -> Result<Option<SpectrumId>> {
+    let Some(spectrum) = spectrum else { return Ok(None) };
+    let function = compiler.spectra.resolve(spectrum, Role::Coefficient)?;
+    let absorbs = function.range().1 > 0.0;
+    Ok(absorbs.then(|| compiler.spectra.add(&function, compiler.normalization.meters_per_unit)))
+}
+
 /// Roughness as it is rendered: what is too little to tell from smooth is smooth.
-fn alpha(roughness: f64, at: &str, description: &SceneDescription, warnings: &mut Vec<String>) -> f32 {
+fn alpha(roughness: f64, at: &str, compiler: &mut Compiler) -> f32 {
     if roughness == 0.0 || roughness >= Ggx::SMOOTHEST {
         return roughness as f32;
     }
-    let file = description.file.display();
-    warnings.push(format!("{file}: {at}.roughness: less than {:e} is rendered as smooth", Ggx::SMOOTHEST));
+    let text = format!("less than {:e} is rendered as smooth", Ggx::SMOOTHEST);
+    compiler.warn(&format!("{at}.roughness"), &text);
     0.0
 }
 
@@ -91,7 +94,8 @@ fn conductor(index: &ConductorDescription, alpha: f32, at: &str, spectra: &mut S
             (spectra.add(&eta, 1.0), spectra.add(&k, 1.0))
         }
     };
-    Ok(Material::Conductor { eta, k, alpha })
+    let [eta, k] = [eta, k].map(Parameter::Spectrum);
+    Ok(Material::Conductor(ConductorMaterial { eta, k, alpha }))
 }
 
 fn index_of_refraction(ior: &IorDescription) -> Result<(IndexOfRefraction, Option<String>)> {

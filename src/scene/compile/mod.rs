@@ -1,10 +1,12 @@
 //! SceneDescription → [`Scene`]: names become indices, spectra become tables, shapes become primitives in one tree, and
 //! all lengths and radiances are brought to about unit size by powers of two, so that no scale is special.
 
+mod compiler;
 mod geometry;
 mod lights;
 mod materials;
 mod normalize;
+mod place;
 mod spectra;
 
 use super::Integrator;
@@ -15,12 +17,12 @@ use crate::film::{Filter, Sensor};
 use crate::geometry::Bvh;
 use crate::math;
 use crate::{Error, ErrorKind, Result};
+use compiler::Compiler;
 use geometry::Geometry;
-pub use geometry::world_mesh;
 use glam::DVec3;
 use materials::Materials;
 use normalize::Normalization;
-use spectra::Spectra;
+pub use place::world_mesh;
 use std::time::Instant;
 
 /// What a scene file asks for, ready to render.
@@ -28,22 +30,22 @@ use std::time::Instant;
 pub struct Compiled {
     /// The scene.
     pub scene: Scene,
-    /// How to sample it.
+    /// Settings of the renderer.
     pub render: RenderSettings,
-    /// What to record it on.
+    /// Settings of the film.
     pub film: FilmSettings,
-    /// What deserves a look, one line each.
+    /// Warnings, one line each.
     pub warnings: Vec<String>,
 }
 
-/// How to sample.
+/// Settings of the renderer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RenderSettings {
     /// Camera paths per pixel, on average; the most of them where something else stops the render.
     pub samples_per_pixel: u64,
     /// relMSE below which the render stops.
     pub target_error: Option<f64>,
-    /// When the render stops.
+    /// Time at which the render stops.
     pub deadline: Option<Instant>,
     /// Whether pixels that have converged get fewer samples, and the others more.
     pub adaptive: bool,
@@ -51,11 +53,11 @@ pub struct RenderSettings {
     pub max_depth: u32,
     /// Seed of all sequences.
     pub seed: u64,
-    /// Technique.
+    /// Light transport technique.
     pub integrator: Integrator,
 }
 
-/// Size of the picture and how samples belong to pixels.
+/// Size of the picture, and the filter by which samples belong to pixels.
 #[derive(Debug, Clone)]
 pub struct FilmSettings {
     /// Pixels per row.
@@ -79,16 +81,15 @@ pub fn compile(description: &SceneDescription) -> Result<Compiled> {
 fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
     let integrator = description.render.integrator;
     let mut warnings = Vec::new();
-    let placed = geometry::place(description, &mut warnings)?;
-    let normalization = Normalization::of(description, &placed);
-    let mut spectra = Spectra::new(description);
-    let materials = Materials::compile(description, &mut spectra, &normalization, &mut warnings)?;
-    let mut geometry = Geometry::compile(description, placed, &normalization, &materials)?;
+    let placed = place::place(description, &mut warnings)?;
+    let mut compiler = Compiler::new(description, Normalization::of(description, &placed), warnings);
+    let materials = Materials::compile(&mut compiler)?;
+    let mut geometry = Geometry::compile(&compiler, placed, &materials)?;
     let bvh = Bvh::build(&geometry.positions, &geometry.triangles, &geometry.analytic_bounds());
     let solids = geometry.solids();
     let observer = Observer::by_name(&description.film.observer).map_err(|error| error.at("film.observer"))?;
-    let lights =
-        lights::compile(description, observer, &mut geometry, &solids, &mut spectra, &normalization, &mut warnings)?;
+    let lights = lights::compile(&mut compiler, observer, &mut geometry, &solids)?;
+    let Compiler { normalization, spectra, mut warnings, .. } = compiler;
     warnings.extend(spectra.take_warnings());
     let features = SceneFeatures {
         dispersion: materials.media.iter().any(|m| m.dispersive),
@@ -99,6 +100,7 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
         positions: geometry.positions,
         triangles: geometry.triangles,
         normals: geometry.normals,
+        uvs: geometry.uvs,
         triangle_objects: geometry.triangle_objects,
         analytic: geometry.analytic,
         analytic_objects: geometry.analytic_objects,

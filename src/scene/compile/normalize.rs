@@ -1,6 +1,6 @@
 //! Bringing a scene to unit size around the origin, by a shift and a power of two.
 
-use super::geometry::Placed;
+use super::place::Placed;
 use crate::scene::description::{LightKind, SceneDescription};
 use glam::{DAffine3, DMat3, DVec3};
 

@@ -15,9 +15,9 @@ use std::path::Path;
 /// What a spectrum stands for; decides what an RGB colour means there and which values are legal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// In [0, 1].
+    /// A share of light, in [0, 1].
     Reflectance,
-    /// Not negative.
+    /// Radiance or power; not negative.
     Emission,
     /// A coefficient or index; not negative, and no colour.
     Coefficient,
@@ -40,7 +40,7 @@ impl<'a> Spectra<'a> {
         self.tables
     }
 
-    /// What deserves a look about the spectra resolved so far.
+    /// Takes the warnings about the spectra resolved so far.
     pub fn take_warnings(&self) -> Vec<String> {
         self.warnings.take()
     }
@@ -149,7 +149,7 @@ impl<'a> Spectra<'a> {
     }
 }
 
-/// An error in a file that the scene names: told from where the scene names it.
+/// Reports an error in a file that the scene names at the place where the scene names it.
 pub fn in_referenced_file(error: Error, path: &Path, at: String) -> Error {
     Error::new(error.kind, error.in_file(path).to_string()).at(at)
 }

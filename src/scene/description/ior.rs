@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use super::JsonPath;
-use super::codec::{Choice, Codec, FileName, Kind, Name, Number, Numbers, Object, Range, Record, Value, describe};
+use super::codec::{
+    Choice, Codec, FileName, Kind, Name, Number, Numbers, Object, Range, Record, Value, Variant, describe,
+};
 use super::json::Json;
 use super::spectrum::table;
 use super::text::quote;

@@ -7,7 +7,9 @@ mod triangles;
 
 use std::path::PathBuf;
 
-use super::codec::{Defined, FileName, Number, Object, Range, Record, Variant};
+use super::codec::{Bool, Defined, FileName, Number, Object, Range, Record, Variant, error};
+use super::path::Path;
+use super::text::show;
 use super::vector::{DIRECTION, POINT, are_parallel};
 use crate::{ErrorKind, Result};
 
@@ -41,6 +43,22 @@ pub enum ShapeDescription {
         normal: [f64; 3],
         /// Radius, > 0.
         radius: f64,
+    },
+    /// A box with edges along the axes.
+    Box {
+        /// Smallest corner, metres.
+        min: [f64; 3],
+        /// Largest corner, metres.
+        max: [f64; 3],
+    },
+    /// A cylinder: axis y, centred.
+    Cylinder {
+        /// Radius, metres, > 0.
+        radius: f64,
+        /// Height, metres, > 0.
+        height: f64,
+        /// Whether it is without caps.
+        open: bool,
     },
     /// Triangles given in the file.
     Triangles {
@@ -90,6 +108,8 @@ const SHAPES: &[Variant<ShapeDescription>] = &[
     Variant { name: "sphere", what: "a sphere", doc: "A sphere.", read: sphere },
     Variant { name: "quad", what: "a quad", doc: "A parallelogram; its normal is u × v.", read: quad },
     Variant { name: "disk", what: "a disk", doc: "A flat disk.", read: disk },
+    Variant { name: "box", what: "a box", doc: "A box with edges along the axes.", read: cuboid },
+    Variant { name: "cylinder", what: "a cylinder", doc: "A cylinder: axis y, centred.", read: cylinder },
     Variant { name: "triangles", what: "triangles", doc: "Triangles given in the scene file.", read: triangles::read },
     Variant { name: "mesh", what: "a mesh", doc: "Triangles from a file.", read: mesh },
     Variant { name: "implicit", what: "an implicit shape", doc: "A closed surface given by an equation.", read: implicit::read },
@@ -131,6 +151,25 @@ fn disk(o: &mut Object) -> Result<ShapeDescription> {
         center: o.required("center", POINT, "Centre, metres.")?,
         normal: o.required("normal", DIRECTION, "Normal, of any length but 0.")?,
         radius: o.required("radius", LENGTH, "Radius, metres.")?,
+    })
+}
+
+fn cuboid(o: &mut Object) -> Result<ShapeDescription> {
+    let min = o.required("min", POINT, "Smallest corner, metres.")?;
+    let max = o.required("max", POINT, "Largest corner, metres; each component above that of `min`.")?;
+    o.check(|value| {
+        let Some(axis) = (0..3).find(|&axis| min[axis] >= max[axis]) else { return Ok(()) };
+        let message = format!("expected more than the {} of `min`, found {}", show(min[axis]), show(max[axis]));
+        Err(error(ErrorKind::Degenerate, &Path::Index(&Path::Key(value.path, "max"), axis), message))
+    })?;
+    Ok(ShapeDescription::Box { min, max })
+}
+
+fn cylinder(o: &mut Object) -> Result<ShapeDescription> {
+    Ok(ShapeDescription::Cylinder {
+        radius: o.required("radius", LENGTH, "Radius, metres.")?,
+        height: o.required("height", LENGTH, "Height, metres.")?,
+        open: o.default("open", Bool, "false", "Whether it is without caps.")?,
     })
 }
 
