@@ -199,6 +199,8 @@ const SHAPES: &[Whole] = &[
     ("quad flat", r#"{"type": "quad", "origin": [0, 0, 0], "u": [0.1, 0.2, 0.3], "v": [0.3, 0.6, 0.9]}"#, "degenerate", "objects[0].shape", "parallel"),
     ("quad edge zero", r#"{"type": "quad", "origin": [0, 0, 0], "u": [0, 0, 0], "v": [0, 1, 0]}"#, "degenerate", "objects[0].shape.u", "zero vector"),
     ("disk normal", r#"{"type": "disk", "center": [0, 0, 0], "normal": [0, 0, 0], "radius": 1}"#, "degenerate", "objects[0].shape.normal", "zero vector"),
+    ("box inside out", r#"{"type": "box", "min": [0, 0, 0], "max": [1, 0, 1]}"#, "degenerate", "objects[0].shape.max[1]", "more than the 0 of `min`"),
+    ("cylinder without height", r#"{"type": "cylinder", "radius": 1}"#, "missing", "objects[0].shape", "a cylinder needs radius, height"),
     ("no triangles", r#"{"type": "triangles", "positions": [0,0,0, 1,0,0, 0,1,0], "indices": []}"#, "missing", "objects[0].shape.indices", "empty list"),
     ("positions not in threes", r#"{"type": "triangles", "positions": [0,0,0, 1,0,0, 0,1], "indices": [0, 1, 2]}"#, "wrong_type", "objects[0].shape.positions", "3 for each entry, found 8"),
     ("positions nested", r#"{"type": "triangles", "positions": [[0,0,0], [1,0,0], [0,1,0]], "indices": [0, 1, 2]}"#, "wrong_type", "objects[0].shape.positions[0]", "found a list"),

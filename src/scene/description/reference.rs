@@ -7,7 +7,8 @@ use super::document::SCENE;
 
 /// Every kind of thing in a scene file with its keys: type, unit, default, limits and meaning, in Markdown.
 pub fn reference() -> String {
-    let mut writer = Writer { text: String::from(INTRODUCTION), waiting: Vec::new(), known: Vec::new() };
+    let mut writer =
+        Writer { text: String::from(INTRODUCTION), waiting: Vec::new(), known: Vec::new(), written: Vec::new() };
     writer.later("a scene", SCENE.kind());
     while !writer.waiting.is_empty() {
         let (title, kind) = writer.waiting.remove(0);
@@ -33,14 +34,15 @@ struct Writer {
     waiting: Vec<(String, Kind)>,
     /// Titles of all sections.
     known: Vec<String>,
+    /// Objects that are written already, by their description, with the title of their section.
+    written: Vec<(&'static str, String)>,
 }
 
 impl Writer {
     /// Queues a section, unless it is known; returns a link to it.
     fn later(&mut self, what: &str, kind: Kind) -> String {
         let title = title(what);
-        let anchor: String = title.to_lowercase().replace(' ', "-");
-        let link = format!("[{what}](#{anchor})");
+        let link = format!("[{what}](#{})", anchor(&title));
         if !self.known.contains(&title) {
             self.known.push(title.clone());
             self.waiting.push((title, kind));
@@ -55,12 +57,24 @@ impl Writer {
             Kind::Either(kinds) => {
                 for (kind, doc) in kinds {
                     match kind {
-                        Kind::Object(table) => self.table(*table, 3),
+                        Kind::Object(table) => self.table_once(*table, title),
                         _ => self.line(&format!("* {}: {doc}", capitalized(&kind.expected()))),
                     }
                 }
             }
             _ => self.line(&format!("{}.", capitalized(&kind.expected()))),
+        }
+    }
+
+    /// Writes an object, or where it is written if that was done before.
+    fn table_once(&mut self, table: Table, title: &str) {
+        if let Some((_, title)) = self.written.iter().find(|(doc, _)| *doc == table.doc) {
+            let link = format!("[{title}](#{})", anchor(title));
+            self.line(&format!("* {}, as described under {link}.", capitalized(&table.expected())));
+        } else {
+            self.written.push((table.doc, title.to_owned()));
+            self.line("* An object:\n");
+            self.table(table, 3);
         }
     }
 
@@ -145,6 +159,11 @@ fn meaning(field: &Field) -> String {
 /// "a scene" as a title.
 fn title(what: &str) -> String {
     capitalized(what.trim_start_matches("an ").trim_start_matches("a "))
+}
+
+/// The address of a title inside the page.
+fn anchor(title: &str) -> String {
+    title.to_lowercase().replace(' ', "-")
 }
 
 fn capitalized(text: &str) -> String {

@@ -244,7 +244,8 @@ impl Kind {
 }
 
 impl Table {
-    fn expected(&self) -> String {
+    /// What is expected where the object stands.
+    pub fn expected(&self) -> String {
         match (self.tag, self.variants.is_empty()) {
             (None, false) => {
                 let keys: Vec<&str> = self.variants.iter().map(|(key, _)| *key).collect();
