@@ -1,10 +1,11 @@
 //! The short way from a scene file to a picture: load, render, develop, save.
 
-use crate::develop::{self, Picture, Tonemap};
+use crate::develop::{self, Picture};
 use crate::film::Film;
 use crate::io::{output, png};
 use crate::render::{self, Rendering};
-use crate::scene::description::{self, DevelopDescription, Parsed, SceneDescription};
+pub use crate::scene::description::DevelopDescription as DevelopSettings;
+use crate::scene::description::{self, Parsed, SceneDescription};
 use crate::scene::{Compiled, FilmSettings, RenderSettings, Scene, compile};
 use crate::{Error, ErrorKind, Result};
 use std::path::Path;
@@ -24,26 +25,6 @@ pub struct Project {
     pub warnings: Vec<String>,
 }
 
-/// How a film becomes a picture to be shown.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DevelopSettings {
-    /// Exposure in stops; automatic if `None`.
-    pub exposure_ev: Option<f64>,
-    /// Tone mapping operator.
-    pub tonemap: Tonemap,
-}
-
-impl From<&DevelopDescription> for DevelopSettings {
-    fn from(description: &DevelopDescription) -> Self {
-        let tonemap = match description.tonemap {
-            description::Tonemap::Srgb => Tonemap::Srgb,
-            description::Tonemap::Exponential => Tonemap::Exponential,
-            description::Tonemap::Reinhard => Tonemap::Reinhard,
-        };
-        Self { exposure_ev: description.exposure_ev, tonemap }
-    }
-}
-
 impl Project {
     /// Compiles a description: reads the files it names and builds all that rendering needs.
     ///
@@ -51,7 +32,7 @@ impl Project {
     /// Those of [`compile`].
     pub fn compile(description: &SceneDescription) -> Result<Self> {
         let Compiled { scene, render, film, warnings } = compile(description)?;
-        Ok(Self { scene, render, film, develop: DevelopSettings::from(&description.develop), warnings })
+        Ok(Self { scene, render, film, develop: description.develop, warnings })
     }
 
     fn new(parsed: Parsed) -> Result<Self> {

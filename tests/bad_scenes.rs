@@ -107,6 +107,8 @@ fn is_beyond_schema(code: &str, name: &str) -> bool {
             "index too large",
             "normals too few",
             "fat torus",
+            "fat gyroid",
+            "gyroid of too many periods",
             "smooth union lengths",
             "lens of small radius",
             "projective matrix",

@@ -144,6 +144,8 @@ fn the_full_scene_is_read_field_for_field() {
         blend: 0.2,
     };
     assert_eq!(scene.objects[12].shape, ShapeDescription::Implicit(union));
+    assert_eq!(scene.objects[14].shape, ShapeDescription::Box { min: [-1.0, 0.0, -1.0], max: [1.0, 2.0, 1.0] });
+    assert_eq!(scene.objects[15].shape, ShapeDescription::Cylinder { radius: 0.5, height: 2.0, open: true });
     assert_eq!(scene.objects[15].shape, ShapeDescription::Cylinder { radius: 1.0, height: 2.0, open: true });
     assert_eq!(scene.objects[14].shape, ShapeDescription::Box { min: [0.0; 3], max: [1.0, 2.0, 3.0] });
     assert!(warnings.is_empty(), "{warnings:?}");
@@ -155,6 +157,15 @@ fn the_schema_accepts_the_full_scene() {
     let validator = jsonschema::validator_for(&schema()).unwrap();
     let errors: Vec<String> = validator.iter_errors(&value).map(|error| error.to_string()).collect();
     assert!(errors.is_empty(), "{errors:?}");
+}
+
+#[test]
+fn the_committed_reference_is_what_the_declarations_say() {
+    let committed = include_str!("../docs/scene-reference.md");
+    assert!(committed == reference(), "run `abbe scene reference > docs/scene-reference.md`");
+    for kind in ["sphere", "smooth-union", "dielectric", "directional", "blackbody_kelvin", "sellmeier", "matrix"] {
+        assert!(committed.contains(&format!("{kind}`")) || committed.contains(&format!("\"{kind}\"`")), "{kind}");
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! `abbe scene check|schema|export`: checks scene files and prints their JSON Schema.
+//! `abbe scene check|schema|reference|export`: checks scene files and prints their JSON Schema and reference.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -26,6 +26,8 @@ pub enum SceneCommand {
     Check(CheckArgs),
     /// Print the JSON Schema of scene files
     Schema,
+    /// Print every key of scene files with its meaning, as Markdown
+    Reference,
     /// Write a scene for another renderer
     Export(export::ExportArgs),
 }
@@ -67,6 +69,7 @@ pub fn run(args: &SceneArgs, out: &mut dyn Write, err: &mut dyn Write) -> Result
             let text = serde_json::to_string_pretty(&description::schema()).map_err(|error| failed(&error))?;
             write_data(out, format!("{text}\n").as_bytes())
         }
+        SceneCommand::Reference => write_data(out, description::reference().as_bytes()),
         SceneCommand::Export(args) => export::run(args, out),
     }
 }

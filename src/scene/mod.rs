@@ -5,14 +5,16 @@ mod camera;
 mod compile;
 pub mod description;
 mod features;
+mod integrator;
 mod light;
 mod material;
 mod solid;
 mod surface;
 
 pub use camera::{Camera, Connection};
-pub use compile::{Compiled, FilmSettings, Integrator, RenderSettings, compile, world_mesh};
+pub use compile::{Compiled, FilmSettings, RenderSettings, compile, world_mesh};
 pub use features::SceneFeatures;
+pub use integrator::Integrator;
 pub use light::{
     Aim, AreaLight, AreaShape, BeamLight, DirectionalLight, Emission, EmissionStart, EnvironmentLight, Exit,
     GuidedPair, Light, LightKind, LightSample, PointLight, SpotLight,

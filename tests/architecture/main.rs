@@ -44,7 +44,16 @@ const RULES: &[(&str, &[Grant])] = &[
         ],
     ),
     ("scene", &[Module("geometry"), Module("optics"), Module("sampling"), Module("spectrum")]),
-    ("scene::description", &[]),
+    // Plain enums, and the limits that the modules below state.
+    (
+        "scene::description",
+        &[
+            Items("color", &["Observer"]),
+            Items("develop", &["Tonemap"]),
+            Items("geometry", &["implicit"]),
+            Items("scene", &["Integrator"]),
+        ],
+    ),
     (
         "scene::compile",
         &[

@@ -21,6 +21,9 @@ impl Gyroid {
     /// Most periods across the radius: the cost of a ray grows with them.
     pub const MAX_PERIODS: f64 = 100.0;
 
+    /// Limit of the thickness, in periods: from there on the wall would fill the space.
+    pub const MAX_THICKNESS: f64 = 0.25;
+
     /// A gyroid wall by the surface's period, the wall's thickness (to first order, where the gradient is largest and the
     /// wall thinnest; below a quarter of the period) and the radius of the sphere that cuts it, at most 100 periods.
     pub fn new(period: f64, thickness: f64, radius: f64) -> Result<Self> {
@@ -28,7 +31,7 @@ impl Gyroid {
         positive("thickness", thickness)?;
         positive("radius", radius)?;
         let out_of_range = |message: String| Err(Error::new(ErrorKind::OutOfRange, message));
-        if thickness >= 0.25 * period {
+        if thickness >= Self::MAX_THICKNESS * period {
             return out_of_range(format!(
                 "thickness {thickness} is not below a quarter of the period {period}: the wall would fill the space"
             ));

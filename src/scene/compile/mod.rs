@@ -9,7 +9,8 @@ mod normalize;
 mod place;
 mod spectra;
 
-use super::description::{FilterKind, FovAxis, Integrator as IntegratorName, SceneDescription};
+use super::Integrator;
+use super::description::{FilterKind, FovAxis, SceneDescription};
 use super::{Camera, Scene, SceneFeatures};
 use crate::color::Observer;
 use crate::film::{Filter, Sensor};
@@ -56,21 +57,6 @@ pub struct RenderSettings {
     pub integrator: Integrator,
 }
 
-/// Light transport techniques that there are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Integrator {
-    /// Camera paths, and light paths for the caustics of lights that camera paths hardly find.
-    Auto,
-    /// Camera paths alone.
-    Path,
-    /// Light paths alone, of all kinds, each with one wavelength past a dispersive refraction.
-    Light,
-    /// As `Auto`, with photon merging for every light that light paths can start from.
-    Merge,
-    /// The baseline: camera paths with four wavelengths, of which a dispersive surface leaves one.
-    Hero,
-}
-
 /// Size of the picture, and the filter by which samples belong to pixels.
 #[derive(Debug, Clone)]
 pub struct FilmSettings {
@@ -93,7 +79,7 @@ pub fn compile(description: &SceneDescription) -> Result<Compiled> {
 }
 
 fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
-    let integrator = integrator(description.render.integrator);
+    let integrator = description.render.integrator;
     let mut warnings = Vec::new();
     let placed = place::place(description, &mut warnings)?;
     let mut compiler = Compiler::new(description, Normalization::of(description, &placed), warnings);
@@ -157,16 +143,6 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
         film: FilmSettings { width: film.width, height: film.height, filter, sensor: Sensor::of_observer(observer) },
         warnings,
     })
-}
-
-fn integrator(name: IntegratorName) -> Integrator {
-    match name {
-        IntegratorName::Auto => Integrator::Auto,
-        IntegratorName::Path => Integrator::Path,
-        IntegratorName::Light => Integrator::Light,
-        IntegratorName::Merge => Integrator::Merge,
-        IntegratorName::Hero => Integrator::Hero,
-    }
 }
 
 fn camera(description: &SceneDescription, normalization: &Normalization) -> Result<Camera> {

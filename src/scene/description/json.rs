@@ -9,6 +9,7 @@ use std::io::Read;
 use serde::de::{DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
 
 use super::path::Path;
+use super::text::{quote, show};
 use crate::{Error, ErrorKind, Result};
 
 /// Largest scene file that is read, bytes.
@@ -91,20 +92,6 @@ impl Json {
             Json::List(_) => "a list".into(),
             Json::Object(_) => "an object".into(),
         }
-    }
-}
-
-/// A number for messages, short at any size.
-pub fn show(value: f64) -> String {
-    let size = value.abs();
-    if size != 0.0 && !(1e-4..1e7).contains(&size) { format!("{value:e}") } else { format!("{value}") }
-}
-
-/// A string for messages: quoted, on one line, cut when long.
-pub fn quote(text: &str) -> String {
-    match text.char_indices().nth(60) {
-        Some((end, _)) => format!("{:?}", format!("{}…", &text[..end])),
-        None => format!("{text:?}"),
     }
 }
 

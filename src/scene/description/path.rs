@@ -23,7 +23,7 @@ impl fmt::Display for Path<'_> {
                 match (parent, !key.is_empty() && key.chars().all(plain)) {
                     (Path::Root, true) => f.write_str(key),
                     (_, true) => write!(f, "{parent}.{key}"),
-                    (_, false) => write!(f, "{parent}[{}]", super::json::quote(key)),
+                    (_, false) => write!(f, "{parent}[{}]", super::text::quote(key)),
                 }
             }
         }

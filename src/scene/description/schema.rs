@@ -1,17 +1,9 @@
-//! The JSON Schema of scene files (draft 2020-12), generated from the tables that parsing itself uses.
+//! The JSON Schema of scene files (draft 2020-12), made from what the decoders declare.
 
 use serde_json::{Map as JsonMap, Value, json};
 
-use super::tables::*;
-
-/// Roles of spectra with the name of their definition.
-const ROLES: [(Role, &str); 5] = [
-    (Role::Named, "spectrum"),
-    (Role::Reflectance, "reflectance"),
-    (Role::Emission, "emission"),
-    (Role::Absorption, "absorption"),
-    (Role::Index, "complex_index"),
-];
+use super::codec::{Codec, Field, Kind, MAX_NAMES, MAX_TEXT, Need, NumbersKind, Range, Rule, Table};
+use super::document::SCENE;
 
 /// The JSON Schema of scene files.
 ///
@@ -23,55 +15,131 @@ const ROLES: [(Role, &str); 5] = [
 /// assert_eq!(schema["properties"]["render"]["default"], serde_json::json!({}));
 /// ```
 pub fn schema() -> Value {
-    let mut root = table_schema(&SCENE, &[]);
+    let mut definitions = Definitions::default();
+    let mut root = definitions.kind(&SCENE.kind());
     root["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     root["title"] = json!("abbe scene");
-    let mut definitions = JsonMap::new();
-    for (role, name) in ROLES {
-        definitions.insert(name.into(), forms_schema(&SPECTRUM, Some(role)));
-    }
-    definitions.insert("ior".into(), forms_schema(&IOR, None));
-    definitions.insert("shape".into(), tagged_schema(&SHAPE, &mut Vec::new()));
-    definitions.insert("transform_step".into(), forms_schema(&TRANSFORM_STEP, None));
-    root["$defs"] = Value::Object(definitions);
+    root["$defs"] = Value::Object(definitions.0);
     root
 }
 
-fn reference(name: &str) -> Value {
-    json!({ "$ref": format!("#/$defs/{name}") })
+/// The schemas of the kinds that stand in several places, by name.
+#[derive(Default)]
+struct Definitions(JsonMap<String, Value>);
+
+/// Keys and values that tell the kind of an object, with the kind's description.
+type Tags<'a> = Vec<(&'static str, &'static str, &'a str)>;
+
+impl Definitions {
+    fn kind(&mut self, kind: &Kind) -> Value {
+        match kind {
+            Kind::Number(range) => number_schema("number", range),
+            Kind::Integer(range) => number_schema("integer", range),
+            Kind::Bool => json!({ "type": "boolean" }),
+            Kind::Text => json!({ "type": "string", "maxLength": MAX_TEXT }),
+            Kind::Name(what) => json!({ "type": "string", "minLength": 1, "maxLength": MAX_TEXT, "title": what }),
+            Kind::File { what, extensions } => {
+                json!({ "type": "string", "title": what, "maxLength": MAX_TEXT, "pattern": file_pattern(extensions) })
+            }
+            Kind::Choice(names) => choice_schema(names),
+            Kind::Numbers(numbers) => numbers_schema(numbers),
+            Kind::List { item, min, max, .. } => {
+                json!({ "type": "array", "items": self.kind(item), "minItems": min, "maxItems": max })
+            }
+            Kind::Map { item, .. } => json!({
+                "type": "object",
+                "properties": { "comment": comment() },
+                "additionalProperties": self.kind(item),
+                "propertyNames": { "minLength": 1, "maxLength": MAX_TEXT },
+                "maxProperties": MAX_NAMES,
+            }),
+            Kind::Object(table) => self.table(table, &Tags::new(), &[]),
+            Kind::Either(kinds) => {
+                let kinds: Vec<Value> = kinds.iter().map(|(kind, doc)| described(self.kind(kind), doc)).collect();
+                json!({ "anyOf": kinds })
+            }
+            Kind::Defined(name, kind) => {
+                if !self.0.contains_key(*name) {
+                    // The name is taken first, as the kind may contain itself.
+                    self.0.insert((*name).into(), Value::Null);
+                    let schema = self.kind(&kind());
+                    self.0.insert((*name).into(), schema);
+                }
+                json!({ "$ref": format!("#/$defs/{name}") })
+            }
+        }
+    }
+
+    /// An object, of which some keys are already told by what it is a kind of.
+    fn table(&mut self, table: &Table, tags: &Tags, common: &[&Field]) -> Value {
+        let fields: Vec<&Field> = table.fields.iter().chain(common.iter().copied()).collect();
+        if table.variants.is_empty() {
+            return self.plain_table(table, tags, &fields);
+        }
+        let kinds: Vec<Value> = table
+            .variants
+            .iter()
+            .map(|(name, variant)| {
+                let mut tags = tags.clone();
+                tags.extend(table.tag.map(|tag| (tag, *name, variant.doc)));
+                self.table(variant, &tags, &fields)
+            })
+            .collect();
+        described(if table.tag.is_some() { json!({ "oneOf": kinds }) } else { json!({ "anyOf": kinds }) }, table.doc)
+    }
+
+    fn plain_table(&mut self, table: &Table, tags: &Tags, fields: &[&Field]) -> Value {
+        let mut properties = JsonMap::new();
+        let mut required: Vec<&str> = Vec::new();
+        for (tag, name, doc) in tags {
+            properties.insert((*tag).into(), json!({ "const": name, "description": doc }));
+            required.push(tag);
+        }
+        for field in fields {
+            properties.insert(field.key.into(), self.field(field));
+            if field.need == Need::Required {
+                required.push(field.key);
+            }
+        }
+        properties.insert("comment".into(), comment());
+        let mut schema = json!({
+            "type": "object",
+            "description": table.doc,
+            "properties": properties,
+            "required": required,
+            "additionalProperties": false,
+        });
+        let sets = table.rule.sets();
+        match table.rule {
+            Rule::Free => {}
+            Rule::AnyOf(_) => {
+                schema["anyOf"] = sets.iter().map(|keys| json!({ "required": keys })).collect();
+            }
+            Rule::OneOf(_) => schema["oneOf"] = sets.iter().map(|keys| only(keys, sets)).collect(),
+        }
+        schema
+    }
+
+    /// A key: its kind with the key's own description and default.
+    fn field(&mut self, field: &Field) -> Value {
+        let mut schema = self.kind(&field.kind);
+        let doc = match schema.get("description").and_then(Value::as_str) {
+            Some(more) if matches!(field.kind, Kind::Choice(_)) => format!("{} {more}", field.doc),
+            _ => field.doc.to_owned(),
+        };
+        schema["description"] = json!(doc);
+        if let Need::Default(text) = field.need {
+            schema["default"] = serde_json::from_str(text).expect("defaults are JSON");
+        }
+        schema
+    }
 }
 
-fn kind_schema(kind: &Kind) -> Value {
-    match kind {
-        Kind::Number(range) => number_schema("number", range),
-        Kind::Integer(range) => number_schema("integer", range),
-        Kind::Bool => json!({ "type": "boolean" }),
-        Kind::Text => json!({ "type": "string", "maxLength": MAX_TEXT }),
-        Kind::Name(what) => json!({ "type": "string", "minLength": 1, "maxLength": MAX_TEXT, "title": what }),
-        Kind::File(file) => json!({ "type": "string", "title": file.what, "pattern": file_pattern(file) }),
-        Kind::Choice(choice) => json!({ "enum": names(choice), "description": choice_doc(choice) }),
-        Kind::Numbers(numbers) => numbers_schema(numbers),
-        Kind::List(list) => {
-            json!({ "type": "array", "items": kind_schema(&list.item), "minItems": list.min, "maxItems": list.max })
-        }
-        Kind::Map(map) => json!({
-            "type": "object",
-            "properties": { "comment": comment() },
-            "additionalProperties": kind_schema(&map.item),
-            "propertyNames": { "minLength": 1, "maxLength": MAX_TEXT },
-            "maxProperties": MAX_NAMES,
-        }),
-        Kind::Object(table) => table_schema(table, &[]),
-        Kind::Tagged(tagged) if std::ptr::eq(*tagged, &SHAPE) => reference("shape"),
-        Kind::Tagged(tagged) => tagged_schema(tagged, &mut Vec::new()),
-        Kind::Forms(forms) if std::ptr::eq(*forms, &IOR) => reference("ior"),
-        Kind::Forms(forms) if std::ptr::eq(*forms, &TRANSFORM_STEP) => reference("transform_step"),
-        Kind::Forms(forms) => forms_schema(forms, None),
-        Kind::Spectrum(role) => {
-            reference(ROLES.iter().find(|(named, _)| named == role).map_or("spectrum", |(_, name)| name))
-        }
-        Kind::Either(kinds) => json!({ "anyOf": kinds.iter().map(kind_schema).collect::<Vec<_>>() }),
+fn described(mut schema: Value, doc: &str) -> Value {
+    if !doc.is_empty() {
+        schema["description"] = json!(doc);
     }
+    schema
 }
 
 fn number_schema(type_name: &str, range: &Range) -> Value {
@@ -86,7 +154,7 @@ fn number_schema(type_name: &str, range: &Range) -> Value {
     schema
 }
 
-fn numbers_schema(numbers: &Numbers) -> Value {
+fn numbers_schema(numbers: &NumbersKind) -> Value {
     let mut item = number_schema(if numbers.integer { "integer" } else { "number" }, &numbers.item);
     if numbers.null {
         item = json!({ "anyOf": [item, { "type": "null" }] });
@@ -98,71 +166,22 @@ fn numbers_schema(numbers: &Numbers) -> Value {
     schema
 }
 
-fn names(choice: &Choice) -> Vec<&'static str> {
-    choice.names.iter().map(|(name, _)| *name).collect()
-}
-
-fn choice_doc(choice: &Choice) -> String {
-    choice.names.iter().map(|(name, doc)| format!("\"{name}\": {doc}")).collect::<Vec<_>>().join(" ")
+fn choice_schema(names: &[(&str, &str)]) -> Value {
+    let documented = names.iter().filter(|(_, doc)| !doc.is_empty());
+    let doc: Vec<String> = documented.map(|(name, doc)| format!("\"{name}\": {doc}")).collect();
+    let names: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
+    described(json!({ "enum": names }), &doc.join(" "))
 }
 
 /// Matches the extensions in either case.
-fn file_pattern(file: &FileKind) -> String {
+fn file_pattern(extensions: &[&str]) -> String {
     let either = |c: char| format!("[{}{}]", c.to_ascii_lowercase(), c.to_ascii_uppercase());
     let extension = |name: &&str| name.chars().map(either).collect::<String>();
-    format!("\\.({})$", file.extensions.iter().map(extension).collect::<Vec<_>>().join("|"))
+    format!("\\.({})$", extensions.iter().map(extension).collect::<Vec<_>>().join("|"))
 }
 
 fn comment() -> Value {
     json!({ "type": "string", "description": "A remark for people; ignored." })
-}
-
-/// A key: its kind with the key's own description and default.
-fn field_schema(field: &Field) -> Value {
-    let mut schema = kind_schema(&field.kind);
-    let doc = match schema.get("description").and_then(Value::as_str) {
-        Some(more) => format!("{} {more}", field.doc),
-        None => field.doc.to_owned(),
-    };
-    schema["description"] = json!(doc);
-    if let Need::Default(text) = field.need {
-        schema["default"] = serde_json::from_str(text).expect("defaults are JSON");
-    }
-    schema
-}
-
-/// An object; `tags` are the keys and values that tell its kind.
-fn table_schema(table: &Table, tags: &[(&str, &str)]) -> Value {
-    let mut properties = JsonMap::new();
-    let mut required: Vec<&str> = Vec::new();
-    for (tag, name) in tags {
-        properties.insert((*tag).into(), json!({ "const": name, "description": table.doc }));
-        required.push(tag);
-    }
-    for field in table.all_fields() {
-        properties.insert(field.key.into(), field_schema(field));
-        if field.need == Need::Required {
-            required.push(field.key);
-        }
-    }
-    properties.insert("comment".into(), comment());
-    let mut schema = json!({
-        "type": "object",
-        "description": table.doc,
-        "properties": properties,
-        "required": required,
-        "additionalProperties": false,
-    });
-    let alternatives =
-        |sets: &[&[&str]]| json!(sets.iter().map(|keys| json!({ "required": keys })).collect::<Vec<_>>());
-    match table.rule {
-        Rule::Free => {}
-        Rule::AnyOf(sets) => schema["anyOf"] = alternatives(sets),
-        Rule::OneOf(sets) => {
-            schema["oneOf"] = json!(sets.iter().map(|keys| only(keys, sets)).collect::<Vec<_>>());
-        }
-    }
-    schema
 }
 
 /// All of `keys`, and no key of the other sets.
@@ -172,73 +191,26 @@ fn only(keys: &[&str], sets: &[&[&str]]) -> Value {
     json!({ "required": keys, "not": { "anyOf": absent } })
 }
 
-fn tagged_schema(tagged: &'static Tagged, tags: &mut Vec<(&'static str, &'static str)>) -> Value {
-    let mut kinds = Vec::new();
-    for (name, body) in tagged.variants {
-        tags.push((tagged.tag, name));
-        kinds.push(match body {
-            Body::Table(table) => table_schema(table, tags),
-            Body::Tagged(inner) => tagged_schema(inner, tags),
-        });
-        tags.pop();
-    }
-    json!({ "oneOf": kinds })
-}
-
-/// The shorthands and forms; a role narrows what its values can be.
-fn forms_schema(forms: &Forms, role: Option<Role>) -> Value {
-    let mut kinds = Vec::new();
-    if let Some((doc, range)) = &forms.number {
-        let mut schema = number_schema("number", &role.map_or(*range, Role::range));
-        schema["description"] = json!(doc);
-        kinds.push(schema);
-    }
-    if let Some(doc) = forms.text {
-        kinds.push(json!({ "type": "string", "minLength": 1, "description": doc }));
-    }
-    for form in forms.forms {
-        let first = form.fields[0].key;
-        if role.is_none_or(|role| role.takes_rgb() || first != "rgb") {
-            kinds.push(table_schema(form, &[]));
-        }
-    }
-    let mut schema = json!({ "anyOf": kinds });
-    if let Some(role) = role {
-        schema["title"] = json!(role.what());
-    }
-    schema
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Keys and tags that the tables name, each with the table it is of.
-    fn keys_of_table(table: &Table, keys: &mut Vec<(&'static str, String)>) {
-        for field in table.all_fields() {
-            keys.push((field.key, table.what.to_owned()));
+    /// Keys that the tables name, each with the table it is of.
+    fn keys_of_table(table: &Table, keys: &mut Vec<(&'static str, &'static str)>) {
+        for field in &table.fields {
+            keys.push((field.key, table.what));
             keys_of_kind(&field.kind, keys);
         }
+        table.variants.iter().for_each(|(_, variant)| keys_of_table(variant, keys));
     }
 
-    fn keys_of_kind(kind: &Kind, keys: &mut Vec<(&'static str, String)>) {
+    fn keys_of_kind(kind: &Kind, keys: &mut Vec<(&'static str, &'static str)>) {
         match kind {
             Kind::Object(table) => keys_of_table(table, keys),
-            Kind::Tagged(tagged) => keys_of_tagged(tagged, keys),
-            Kind::Forms(forms) => forms.forms.iter().for_each(|form| keys_of_table(form, keys)),
-            Kind::Spectrum(_) => keys_of_kind(&Kind::Forms(&SPECTRUM), keys),
-            Kind::List(list) => keys_of_kind(&list.item, keys),
-            Kind::Map(map) => keys_of_kind(&map.item, keys),
+            Kind::Either(kinds) => kinds.iter().for_each(|(kind, _)| keys_of_kind(kind, keys)),
+            Kind::Defined(_, kind) => keys_of_kind(&kind(), keys),
+            Kind::List { item, .. } | Kind::Map { item, .. } => keys_of_kind(item, keys),
             _ => {}
-        }
-    }
-
-    fn keys_of_tagged(tagged: &Tagged, keys: &mut Vec<(&'static str, String)>) {
-        for (_, body) in tagged.variants {
-            match body {
-                Body::Table(table) => keys_of_table(table, keys),
-                Body::Tagged(inner) => keys_of_tagged(inner, keys),
-            }
         }
     }
 
@@ -261,7 +233,7 @@ mod tests {
         let schema = schema();
         let (mut found, mut keys) = (Vec::new(), Vec::new());
         properties(&schema, &mut found);
-        keys_of_table(&SCENE, &mut keys);
+        keys_of_kind(&SCENE.kind(), &mut keys);
         assert!(keys.len() > 120, "{}", keys.len());
         for (key, table) in keys {
             assert!(found.iter().any(|(name, _)| *name == key), "{key} of {table}");
