@@ -129,8 +129,11 @@ fn without_self(mut path: Vec<String>) -> Vec<String> {
     path
 }
 
+/// A name that a `use` binds: whether it is public, its path as written, and the name.
+type Use = (bool, Vec<String>, String);
+
 /// The code without its `use` declarations, and these.
-pub fn split_uses<'a>(tokens: &[&'a str]) -> (Vec<&'a str>, Vec<(bool, Vec<String>, String)>) {
+pub fn split_uses<'a>(tokens: &[&'a str]) -> (Vec<&'a str>, Vec<Use>) {
     let (mut code, mut uses) = (Vec::new(), Vec::new());
     let mut at = 0;
     while at < tokens.len() {

@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 
-/// A colour proportional to light: red, green, blue of some [`RgbSpace`], where [1, 1, 1] is its white.
+/// A colour proportional to light: red, green, blue of some [`RgbSpace`](super::RgbSpace), where [1, 1, 1] is its white.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LinearRgb(pub DVec3);
 
-/// A colour as files and signals hold it: red, green, blue of some [`RgbSpace`] after its transfer function.
+/// A colour as files and signals hold it: red, green, blue of some [`RgbSpace`](super::RgbSpace) after its
+/// transfer function.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EncodedRgb(pub DVec3);
 
