@@ -186,7 +186,7 @@ fn light_cones() {
         let pdf = samples[0].pdf.unwrap();
         let low = 1.0 - 1.0 / (TAU * f64::from(pdf));
         test_directions("sphere light", axis, low, |i| Some(samples[i as usize].wi), |_| pdf);
-        agrees_with_rays(&scene, light, from);
+        agrees_with_rays(&scene, light, from, 1500);
     }
     let sun = light_scene(
         json!({ "type": "directional", "direction": [0.3, -1, 0.2], "irradiance": 1, "angular_diameter_degrees": 30 }),
@@ -199,8 +199,9 @@ fn light_cones() {
     test_directions("sun of 30°", axis, low, sample, |d| light.escaped(d).map_or(pdf, |(_, pdf)| pdf));
 }
 
-/// Every direction drawn meets the light, and there the density is the same.
-fn agrees_with_rays(scene: &Scene, light: &Light, from: Vec3) {
+/// Every direction drawn meets the light, and there the density is the same. Of the 2000 points drawn from a closed surface
+/// only some face the reference point.
+fn agrees_with_rays(scene: &Scene, light: &Light, from: Vec3, least_met: u32) {
     let mut met = 0;
     for i in 0..2000 {
         let Some(sample) = light.sample(scene, from, pair(i, 7)) else { continue };
@@ -214,7 +215,7 @@ fn agrees_with_rays(scene: &Scene, light: &Light, from: Vec3) {
         assert!((pdf / sample.pdf.unwrap() - 1.0).abs() < 1e-3, "{pdf} {:?}", sample.pdf);
         assert!((sample.weight * pdf - 1.0).abs() < 1e-3);
     }
-    assert!(met > 1500, "{met}");
+    assert!(met > least_met, "{met}");
 }
 
 /// Points drawn by area: the density in solid angle fits the directions, for every shape of light.
@@ -264,7 +265,8 @@ fn area_lights() {
             if hit { light.pdf_surface(from, d, &surface) } else { 0.0 }
         };
         let sample = |i| light.sample(&scene, from, pair(i, 0)).map(|s| s.wi);
-        agrees_with_rays(&scene, light, from);
+        let is_closed = what.contains("box") || what.contains("cylinder");
+        agrees_with_rays(&scene, light, from, if is_closed { 300 } else { 1500 });
         test_directions(what, axis, 0.0, sample, density);
     }
 }

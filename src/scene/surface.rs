@@ -179,40 +179,49 @@ mod tests {
         compile(&description::parse_str(&text, "test.json".as_ref()).unwrap().description).unwrap().scene
     }
 
-    /// Rays from everywhere towards points near the middle, each with one that starts close by.
-    fn ray_pairs() -> impl Iterator<Item = [Ray; 2]> {
+    /// Centre of the object's box and half of its diagonal: compiling has shifted and scaled the scene.
+    fn place_of_object(scene: &Scene) -> (Vec3, f32) {
+        let bounds = scene.objects[0].bounds;
+        (bounds.center(), 0.5 * (bounds.max - bounds.min).length())
+    }
+
+    /// Rays from everywhere towards points near the middle of the object, each with one that starts close by.
+    fn ray_pairs(scene: &Scene) -> impl Iterator<Item = [Ray; 2]> {
+        let (center, size) = place_of_object(scene);
         let fraction = |i: u32, factor: f64| (f64::from(i) * factor).fract() as f32;
         (1..4000).map(move |i| {
             let spread = |factors: [f64; 3]| Vec3::from_array(factors.map(|f| 2.0 * fraction(i, f) - 1.0));
-            let origin = spread([0.754_877, 0.569_841, 0.327_109]).normalize() * 1.5;
-            let target = spread([0.618_034, 0.414_214, 0.732_051]) * 0.3;
+            let origin = spread([0.754_877, 0.569_841, 0.327_109]).normalize() * 2.0;
+            let target = spread([0.618_034, 0.414_214, 0.732_051]) * 0.4;
             let near = origin + spread([0.302_776, 0.236_068, 0.645_751]) * 1e-3;
-            [origin, near].map(|origin| Ray { origin, direction: (target - origin).normalize() })
+            [origin, near]
+                .map(|origin| Ray { origin: center + origin * size, direction: (target - origin).normalize() })
         })
     }
 
     /// From one point to another nearby the surface moves as its derivatives by u and v say, and u × v points outward.
     fn check_coordinates(shape: &str, scale: [f64; 3]) {
         let scene = scaled_scene(shape, "grey", scale);
+        let (_, size) = place_of_object(&scene);
         let mut compared = 0;
-        for rays in ray_pairs() {
+        for rays in ray_pairs(&scene) {
             let [Some(a), Some(b)] = rays.map(|ray| scene.closest(&ray, f32::INFINITY)) else { continue };
             let (Some(at_a), Some(at_b)) = (scene.parametrization(&a), scene.parametrization(&b)) else { continue };
             let uv = scene.uv(&a).unwrap().as_dvec2();
-            assert!(uv.cmpge(DVec2::ZERO - 1e-6).all() && uv.cmple(DVec2::ONE + 1e-6).all(), "{shape}: {uv}");
+            assert!(uv.cmpge(DVec2::ZERO - 1e-5).all() && uv.cmple(DVec2::ONE + 1e-5).all(), "{shape}: {uv}");
             assert!(uv.distance(at_a.uv) < 1e-5, "{shape}: {uv} {at_a:?}");
             assert!(at_a.dp_du.cross(at_a.dp_dv).dot(a.geometric) > 0.0, "{shape}: {at_a:?}");
             let (step, moved) = (at_b.uv - at_a.uv, b.point.as_dvec3() - a.point.as_dvec3());
             // Another face, beyond a seam, or too strongly curved to compare.
-            if a.geometric.distance(b.geometric) > 0.01 || step.abs().max_element() > 0.1 {
+            if a.geometric.distance(b.geometric) > 0.01 || step.abs().max_element() > 0.05 {
                 continue;
             }
             let (du, dv) = ((at_a.dp_du + at_b.dp_du) * 0.5, (at_a.dp_dv + at_b.dp_dv) * 0.5);
             let off = (du * step.x + dv * step.y).distance(moved);
-            assert!(off < 1e-2 * moved.length() + 1e-5, "{shape}: {off:e} of {:e}", moved.length());
+            assert!(off < 1e-2 * moved.length() + 1e-5 * f64::from(size), "{shape}: {off:e} of {:e}", moved.length());
             compared += 1;
         }
-        assert!(compared > 500, "{shape}: {compared}");
+        assert!(compared > 300, "{shape}: {compared}");
     }
 
     #[test]
@@ -240,17 +249,19 @@ mod tests {
         let up = glam::Quat::from_axis_angle(Vec3::new(1.0, 2.0, -1.0).normalize(), 35f32.to_radians()) * Vec3::Y;
         for scale in [[0.9; 3], [0.9, 0.8, 1.1]] {
             let scene = scaled_scene(text, "grey", scale);
-            let surface = scene.closest(&Ray { origin: up * 2.0, direction: -up }, f32::INFINITY).unwrap();
+            let (center, size) = place_of_object(&scene);
+            let ray = Ray { origin: center + up * (2.0 * size), direction: -up };
+            let surface = scene.closest(&ray, f32::INFINITY).unwrap();
             assert!(scene.uv(&surface).unwrap().y > 0.999);
         }
     }
 
     #[test]
     fn what_has_no_coordinates_says_so() {
-        let middle = Ray { origin: Vec3::new(0.03, 0.05, 2.0), direction: Vec3::NEG_Z };
         let uv = |shape: &str, material: &str| {
             let scene = scene(shape, material);
-            scene.uv(&scene.closest(&middle, f32::INFINITY).unwrap())
+            let surfaces = ray_pairs(&scene).filter_map(|[ray, _]| scene.closest(&ray, f32::INFINITY));
+            surfaces.map(|surface| scene.uv(&surface)).next().unwrap()
         };
         let prism = r#"{ "type": "prism", "apex_degrees": 60, "side": 1, "length": 2 }"#;
         assert_eq!((uv(prism, "grey"), uv(prism, "glass")), (None, None));
