@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 /// Shorthand for results of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// What went wrong; decides the exit code, and the stable name that `--json` prints.
+/// What went wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ErrorKind {
-    /// A command line that makes no sense.
+    /// Arguments that make no sense, or leave open what is meant.
     Usage,
     /// Text that is not JSON, YAML, CSV, … at all.
     Syntax,
@@ -35,9 +35,9 @@ pub enum ErrorKind {
     FileNotFound,
     /// A file whose content is not what its format demands.
     FileFormat,
-    /// More than the documented limit.
+    /// A size or number above the documented limit.
     LimitExceeded,
-    /// Understood, but not in this version.
+    /// A value that is understood, but not supported.
     Unsupported,
     /// A scene of another format version.
     Version,
@@ -46,7 +46,7 @@ pub enum ErrorKind {
 }
 
 impl ErrorKind {
-    /// Stable snake_case name.
+    /// Stable name in snake case, for programs.
     pub fn code(self) -> &'static str {
         use ErrorKind::*;
         match self {
@@ -67,15 +67,6 @@ impl ErrorKind {
             Unsupported => "unsupported",
             Version => "version",
             Io => "io",
-        }
-    }
-
-    /// Exit code of the command: 1 failed, 2 usage, 3 bad input.
-    pub fn exit_code(self) -> u8 {
-        match self {
-            ErrorKind::Usage => 2,
-            ErrorKind::Io => 1,
-            _ => 3,
         }
     }
 }
@@ -125,6 +116,23 @@ impl Error {
     pub fn in_file(mut self, file: impl AsRef<Path>) -> Self {
         self.file.get_or_insert_with(|| file.as_ref().to_owned());
         self
+    }
+
+    /// A name that is none of `known`: the message lists these and suggests the nearest.
+    pub fn unknown_name<'a>(what: &str, name: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
+        let known: Vec<&str> = known.into_iter().collect();
+        Self::unknown_name_of(what, name, &format!("one of {}", known.join(", ")), known)
+    }
+
+    /// As [`Self::unknown_name`], for lists too long to be told: `expected` describes what is in them.
+    pub fn unknown_name_of<'a>(
+        what: &str,
+        name: &str,
+        expected: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> Self {
+        let message = format!("unknown {what} {name:?}; expected {expected}");
+        Self::new(ErrorKind::UnknownName, message).nearest(name, known)
     }
 
     /// Adds the candidate that looks most like `name`, if any looks like it at all.

@@ -1,7 +1,7 @@
 //! The library against the frozen values of validation/reference: what `python3 validation/run.py --freeze` wrote from
 //! colour-science, so that no Python is needed to check it.
 
-#[path = "../examples/evaluate/functions/mod.rs"]
+#[path = "../validation/evaluate/functions/mod.rs"]
 mod functions;
 
 use serde_json::Value;

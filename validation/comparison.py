@@ -11,7 +11,7 @@ FROZEN_CASES = 24
 
 @dataclass
 class Comparison:
-    """One line of the report: a function of examples/evaluate at many arguments."""
+    """One line of the report: a function of validation/evaluate at many arguments."""
 
     subject: str
     function: str

@@ -243,7 +243,7 @@ mod tests {
     #[test]
     fn errors_have_their_kinds() {
         let error = |name, at: &[f64]| output(&args(name, at, false)).map(|out| out.text).unwrap_err();
-        assert_eq!(error(Some("N-SF12"), &[]).kind.exit_code(), 3);
+        assert_eq!(crate::cli::exit_code(error(Some("N-SF12"), &[]).kind), 3);
         assert_eq!(error(Some("N-SF12"), &[]).kind, ErrorKind::UnknownName);
         assert_eq!(error(None, &[500.0]).kind, ErrorKind::Usage);
         for lambda_nm in [0.0, -1.0, f64::NAN, 50.0, 3000.0] {

@@ -1,18 +1,20 @@
 //! Command line: one file a subcommand; the only place that prints, shows progress or exits.
 
-pub mod bench;
-pub mod compare;
-pub mod completions;
-pub mod export;
-pub mod glass;
+mod bench;
+mod compare;
+mod completions;
+mod export;
+mod glass;
 mod heat;
+mod names;
 mod plot;
 mod process;
-pub mod render;
-pub mod scene;
-pub mod spectrum;
+mod render;
+mod scene;
+mod spectrum;
 mod swatch;
-pub mod upsample;
+mod upsample;
+mod values;
 
 use crate::{Error, ErrorKind, Result};
 use clap::{CommandFactory, Parser, Subcommand};
@@ -20,9 +22,9 @@ use std::io::Write;
 use std::process::ExitCode;
 
 /// Exit code of a render that was interrupted after it had written what it had.
-pub const INTERRUPTED: u8 = 75;
+const INTERRUPTED: u8 = 75;
 /// Exit code of a comparison over its threshold.
-pub const OVER_THRESHOLD: u8 = 4;
+const OVER_THRESHOLD: u8 = 4;
 
 /// A spectral renderer and colour library.
 #[derive(Debug, Parser)]
@@ -40,10 +42,6 @@ enum Command {
     Scene(scene::SceneArgs),
     /// Print the glass catalogue, or the index of refraction of one of its entries
     Glass(glass::GlassArgs),
-    /// What a scene needs and what is skipped (not yet)
-    Explain(NotYet),
-    /// Develop an EXR into a PNG (not yet)
-    Develop(NotYet),
     /// Compare two EXR pictures, of abbe or any renderer
     Compare(compare::CompareArgs),
     /// Run time against error: integrators, settings and other renderers on the same scenes
@@ -54,13 +52,6 @@ enum Command {
     Upsample(Box<upsample::UpsampleArgs>),
     /// Print completions for a shell
     Completions(completions::CompletionsArgs),
-}
-
-/// Takes anything, as it is refused anyway.
-#[derive(Debug, clap::Args)]
-struct NotYet {
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
-    arguments: Vec<String>,
 }
 
 /// Runs the command line of the process: parses, runs, prints the one error, returns the exit code.
@@ -80,8 +71,17 @@ pub fn main() -> ExitCode {
         Err(error) => {
             // If stderr is closed there is nobody to tell.
             let _ = writeln!(std::io::stderr(), "{error}");
-            ExitCode::from(error.kind.exit_code())
+            ExitCode::from(exit_code(error.kind))
         }
+    }
+}
+
+/// Exit code of an error: 1 failed, 2 usage, 3 bad input.
+fn exit_code(kind: ErrorKind) -> u8 {
+    match kind {
+        ErrorKind::Usage => 2,
+        ErrorKind::Io => 1,
+        _ => 3,
     }
 }
 
@@ -118,8 +118,6 @@ fn run(command: &Command) -> Result<ExitCode> {
         Command::Render(args) => render::run(args),
         Command::Scene(args) => done(scene::run(args, &mut std::io::stdout().lock(), &mut std::io::stderr().lock())),
         Command::Glass(args) => done(glass::run(args)),
-        Command::Explain(args) => not_yet("explain", args),
-        Command::Develop(args) => not_yet("develop", args),
         Command::Compare(args) => compare::run(args),
         Command::Bench(args) => bench::run(args),
         Command::Spectrum(args) => done(spectrum::run(args)),
@@ -138,11 +136,6 @@ fn write_data(out: &mut dyn Write, bytes: &[u8]) -> Result<()> {
 
 fn usage(message: impl Into<String>) -> Error {
     Error::new(ErrorKind::Usage, message)
-}
-
-fn not_yet(name: &str, args: &NotYet) -> Result<ExitCode> {
-    let with = if args.arguments.is_empty() { "" } else { " (and its arguments)" };
-    Err(Error::new(ErrorKind::Usage, format!("`abbe {name}`{with} is not there yet")))
 }
 
 #[cfg(test)]

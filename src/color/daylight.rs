@@ -19,7 +19,7 @@ static COMPONENTS: LazyLock<[PiecewiseLinear; 3]> = LazyLock::new(|| {
 pub enum Factors {
     /// Rounded to three decimals (ties to even), as CIE 15 prescribes and as the tables of D50 … D75 were made.
     Rounded,
-    /// As they are.
+    /// The factors as the formula gives them.
     Exact,
 }
 
@@ -42,7 +42,7 @@ pub fn xy(kelvin: f64) -> Result<[f64; 2]> {
     Ok(xy_unchecked(kelvin))
 }
 
-/// The same without a look at the range.
+/// Chromaticity of daylight without a check of the temperature's range.
 pub(super) fn xy_unchecked(kelvin: f64) -> [f64; 2] {
     let t = 1e3 / kelvin;
     let x = if kelvin <= 7000.0 {

@@ -25,15 +25,16 @@
 
 use super::adaptation::bradford;
 use super::{LinearRgb, RgbSpace, xyz_from_xy};
-use crate::{Error, ErrorKind, Result, math};
+use crate::color::space::OKLAB_CONES_FROM_XYZ;
+use crate::{Error, Result, math};
 use glam::{DMat3, DVec3};
 
 /// How colours get into a gamut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum GamutMethod {
-    /// Each component by itself.
+    /// Clips each component by itself.
     Clip,
-    /// Less chroma at the same lightness and hue.
+    /// Lowers the chroma at the same lightness and hue.
     Desaturate,
 }
 
@@ -46,15 +47,12 @@ impl GamutMethod {
     /// A method by its name.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the nearest name.
+    /// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
     pub fn by_name(name: &str) -> Result<Self> {
         match name {
             "clip" => Ok(Self::Clip),
             "desaturate" => Ok(Self::Desaturate),
-            _ => {
-                let message = format!("unknown gamut mapping {name:?}; expected \"clip\" or \"desaturate\"");
-                Err(Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names()))
-            }
+            _ => Err(Error::unknown_name("gamut mapping", name, Self::names())),
         }
     }
 }
@@ -117,13 +115,6 @@ fn lightness(roots: DVec3) -> f64 {
     ROOTS_FROM_LAB.inverse().row(0).dot(roots)
 }
 
-/// XYZ under D65 to cone responses of Oklab.
-const CONE_FROM_XYZ: DMat3 = DMat3::from_cols(
-    DVec3::new(0.818_933_010_1, 0.032_984_543_6, 0.048_200_301_8),
-    DVec3::new(0.361_866_742_4, 0.929_311_871_5, 0.264_366_269_1),
-    DVec3::new(-0.128_859_713_7, 0.036_145_638_7, 0.633_851_707_0),
-);
-
 /// Oklab to cube roots of cone responses. Its first column is exactly 1, which makes greys exactly neutral.
 const ROOTS_FROM_LAB: DMat3 = DMat3::from_cols(
     DVec3::new(1.0, 1.0, 1.0),
@@ -135,7 +126,7 @@ impl GamutMapper {
     /// A mapping into the gamut of a space.
     pub fn new(space: &RgbSpace, method: GamutMethod) -> Self {
         let adapted = bradford(space.white_xyz(), xyz_from_xy(RgbSpace::srgb().white));
-        let cone_from_rgb = CONE_FROM_XYZ * adapted * space.xyz_from_rgb;
+        let cone_from_rgb = OKLAB_CONES_FROM_XYZ * adapted * space.xyz_from_rgb;
         let white = cone_from_rgb * DVec3::ONE;
         let cone_from_rgb = DMat3::from_diagonal(white.recip()) * cone_from_rgb;
         let rgb_from_cone = cone_from_rgb.inverse();
@@ -212,7 +203,7 @@ fn push_roots(cubic: [f64; 4], roots: &mut Vec<f64>) {
     }
 }
 
-/// Where the derivative of a cubic polynomial is 0, ascending; NaN for turns that do not exist.
+/// Arguments at which the derivative of a cubic polynomial is 0, ascending; NaN for turns that do not exist.
 fn turning_points([_, c1, c2, c3]: [f64; 4]) -> [f64; 2] {
     // 3 c₃ t² + 2 c₂ t + c₁, by the form that does not cancel.
     let q = -(c2 + (c2 * c2 - 3.0 * c3 * c1).sqrt().copysign(c2));
@@ -248,11 +239,11 @@ pub struct GamutReport {
     pub colors: usize,
     /// Colours with a component below 0 or above 1, or one that is not finite.
     pub outside: usize,
-    /// Those with a component below 0: more saturated than the gamut.
+    /// Colours with a component below 0: more saturated than the gamut.
     pub below_zero: usize,
-    /// Those with a component above 1: brighter than the gamut.
+    /// Colours with a component above 1: brighter than the gamut.
     pub above_one: usize,
-    /// Those with a component that is not finite; they count in nothing that follows.
+    /// Colours with a component that is not finite; they count in nothing that follows.
     pub not_finite: usize,
     /// The largest [`excess`].
     pub largest_excess: f64,

@@ -2,7 +2,7 @@
 
 use super::{Observer, normalized_to_unit_luminance, table};
 use crate::spectrum::{PiecewiseLinear, Spectrum};
-use crate::{Error, ErrorKind, Result, math};
+use crate::{Error, Result, math};
 use std::sync::LazyLock;
 
 /// The tables of data/illuminants, one a family.
@@ -27,7 +27,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// The samples are joined by straight lines and held constant beyond the table's ends (380 or 300 nm, 780 or 830 nm).
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] with the nearest name.
+/// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
 pub fn by_name(name: &str) -> Result<Spectrum> {
     let table = Spectrum::PiecewiseLinear(relative_power(name)?);
     normalized_to_unit_luminance(table, Observer::cie_1931_2deg())
@@ -36,14 +36,12 @@ pub fn by_name(name: &str) -> Result<Spectrum> {
 /// An illuminant's samples as published: relative spectral power, not normalised.
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] with the nearest name.
+/// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
 pub fn relative_power(name: &str) -> Result<PiecewiseLinear> {
     match FAMILIES.into_iter().find(|text| table::column_names(text).any(|n| n == name)) {
         Some(text) => table::column(text, name),
         None => {
-            let message =
-                format!("unknown illuminant {name:?}; expected a CIE name such as \"D65\", \"A\" or \"FL11\"");
-            Err(Error::new(ErrorKind::UnknownName, message).nearest(name, names()))
+            Err(Error::unknown_name_of("illuminant", name, "a CIE name such as \"D65\", \"A\" or \"FL11\"", names()))
         }
     }
 }
@@ -65,6 +63,7 @@ pub fn d65() -> &'static Spectrum {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ErrorKind;
     use crate::color::{chromaticity, xyz_of_emission};
 
     #[test]

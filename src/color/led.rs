@@ -1,11 +1,8 @@
 //! Model spectra of light-emitting diodes.
 
 use crate::math;
-use crate::spectrum::{PiecewiseLinear, resample::Grid};
+use crate::spectrum::{FWHM_PER_SIGMA, PiecewiseLinear, resample::Grid};
 use crate::{Error, ErrorKind, Result};
-
-/// Full width at half maximum of a Gaussian over its standard deviation: 2 √(2 ln 2).
-const FWHM_PER_SIGMA: f64 = 2.354_820_045_030_949_3;
 
 /// A Gaussian of peak 1: centre, standard deviation in nm.
 pub fn gaussian(lambda_nm: f64, mean_nm: f64, sigma_nm: f64) -> f64 {
@@ -43,7 +40,7 @@ impl Led {
         Ok(Self { peak_nm, half_width_nm, power: 1.0 })
     }
 
-    /// The same with another power at its peak.
+    /// Returns the diode with another power at its peak.
     pub fn with_power(self, power: f64) -> Self {
         Self { power, ..self }
     }

@@ -159,7 +159,7 @@ pub fn luminance_abebe2017(lightness: f64, white_cd_m2: f64, curve: AbebeCurve) 
 
 /// Coefficients of V, V², … V⁵ that give Y in per cent of magnesium oxide \[Newhall1943\].
 const NEWHALL_1943: [f64; 5] = [1.2219, -0.23111, 0.23951, -0.021009, 0.000_840_4];
-/// The same for the perfect diffuser: 0.975 of the former \[ASTMD1535\].
+/// The same coefficients in per cent of the perfect diffuser, 0.975 times as large \[ASTMD1535\].
 const ASTM_D1535: [f64; 5] = [1.1914, -0.22533, 0.23352, -0.020484, 0.000_819_39];
 
 /// Value and derivative of a quintic without constant term.

@@ -10,7 +10,7 @@ use std::sync::LazyLock;
 const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 /// Luminous efficacy of a photopic function at its largest, lm/W.
 const PHOTOPIC_LM_PER_W: f64 = 683.0;
-/// That of the scotopic one, so that both agree at 540 THz.
+/// Largest luminous efficacy of scotopic vision, such that both agree at 540 THz.
 const SCOTOPIC_LM_PER_W: f64 = 1700.0;
 
 /// Names of those that are an observer's ȳ, with the observer.
@@ -64,11 +64,9 @@ impl LuminousEfficiency {
     /// # Errors
     /// [`ErrorKind::UnknownName`] with the nearest name.
     pub fn by_name(name: &str) -> Result<&'static Self> {
-        ALL.iter().find(|known| known.name == name).ok_or_else(|| {
-            let expected = Self::names().collect::<Vec<_>>().join(", ");
-            let message = format!("unknown luminous efficiency function {name:?}; expected one of {expected}");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        ALL.iter()
+            .find(|known| known.name == name)
+            .ok_or_else(|| Error::unknown_name("luminous efficiency function", name, Self::names()))
     }
 
     /// Names that [`Self::by_name`] knows.

@@ -4,7 +4,7 @@
 
 use super::table;
 use crate::spectrum::Spectrum;
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, Result};
 
 /// Names and tables of data/reflectances.
 const CHECKERS: [(&str, &str); 4] = [
@@ -32,12 +32,10 @@ pub fn checkers() -> impl Iterator<Item = &'static str> {
 /// The patches of a chart in its order: name and reflectance as measured, every 5 or 10 nm.
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] with the nearest name.
+/// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
 pub fn checker(name: &str) -> Result<Vec<(&'static str, Spectrum)>> {
     let Some((_, text)) = CHECKERS.into_iter().find(|(known, _)| *known == name) else {
-        let expected = checkers().collect::<Vec<_>>().join(", ");
-        let message = format!("unknown chart {name:?}; expected one of {expected}");
-        return Err(Error::new(ErrorKind::UnknownName, message).nearest(name, checkers()));
+        return Err(Error::unknown_name("chart", name, checkers()));
     };
     table::column_names(text).map(|patch| Ok((patch, Spectrum::PiecewiseLinear(table::column(text, patch)?)))).collect()
 }
@@ -50,20 +48,18 @@ pub fn lamps() -> impl Iterator<Item = &'static str> {
 /// A lamp's relative spectral power as published, every 5 nm (the xenon arc: 2 nm); not normalised.
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] with the nearest name.
+/// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
 pub fn lamp(name: &str) -> Result<Spectrum> {
     match LAMPS.into_iter().find(|text| table::column_names(text).any(|known| known == name)) {
         Some(text) => table::column(text, name).map(Spectrum::PiecewiseLinear),
-        None => {
-            let message = format!("unknown lamp {name:?}; expected a name such as \"cool-white-fl\" or \"hps\"");
-            Err(Error::new(ErrorKind::UnknownName, message).nearest(name, lamps()))
-        }
+        None => Err(Error::unknown_name_of("lamp", name, "a name such as \"cool-white-fl\" or \"hps\"", lamps())),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ErrorKind;
     use crate::color::{Observer, chromaticity, illuminant, xyz_of_emission, xyz_of_reflectance};
     use std::collections::BTreeSet;
 

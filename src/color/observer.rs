@@ -3,7 +3,7 @@
 use super::integration::integral_of_product_2;
 use super::table;
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, PiecewiseLinear};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, Result};
 use glam::DVec3;
 use std::sync::LazyLock;
 
@@ -41,13 +41,12 @@ impl Observer {
     /// A CIE observer by year and field in degrees: "1931-2" and "1964-10" \[CIE15\], "2015-2" and "2015-10" \[CIE170-2\].
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the nearest name.
+    /// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
     pub fn by_name(name: &str) -> Result<&'static Observer> {
-        OBSERVERS.iter().find(|observer| observer.name == name).ok_or_else(|| {
-            let expected = Self::names().collect::<Vec<_>>().join(", ");
-            let message = format!("unknown observer {name:?}; expected one of {expected}");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        OBSERVERS
+            .iter()
+            .find(|observer| observer.name == name)
+            .ok_or_else(|| Error::unknown_name("observer", name, Self::names()))
     }
 
     /// The names that [`Observer::by_name`] knows.
@@ -107,6 +106,7 @@ fn dark_below(from_nm: f64, curve: PiecewiseLinear) -> PiecewiseLinear {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ErrorKind;
     use approx::assert_relative_eq;
 
     #[test]

@@ -1,7 +1,7 @@
 //! Thermal radiation with named constants: Planck's law and its long-wave limit.
 
 use crate::spectrum::{BOLTZMANN, LIGHT_SPEED, PLANCK};
-use crate::{Error, ErrorKind, Result, math};
+use crate::{Error, Result, math};
 use std::f64::consts::PI;
 
 /// The constants of Planck's law.
@@ -17,7 +17,7 @@ pub struct RadiationConstants {
 }
 
 impl RadiationConstants {
-    /// From the exact constants of the SI \[SI2019\]: c₂ = 1.438776877…·10⁻² m·K.
+    /// The values that follow from the exact constants of the SI \[SI2019\]: c₂ = 1.438776877…·10⁻² m·K.
     pub const SI_2019: Self =
         Self { c1: 2.0 * PI * PLANCK * LIGHT_SPEED * LIGHT_SPEED, c2: PLANCK * LIGHT_SPEED / BOLTZMANN };
     /// c₂ = 1.4388·10⁻² m·K of the International Temperature Scale of 1990 \[PrestonThomas1990\], which CIE 15 \[CIE15\] and
@@ -27,15 +27,12 @@ impl RadiationConstants {
     /// "si-2019" or "its-90".
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the nearest name.
+    /// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
     pub fn by_name(name: &str) -> Result<Self> {
         match name {
             "si-2019" => Ok(Self::SI_2019),
             "its-90" => Ok(Self::ITS_90),
-            _ => {
-                let message = format!("unknown radiation constants {name:?}; expected \"si-2019\" or \"its-90\"");
-                Err(Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names()))
-            }
+            _ => Err(Error::unknown_name("radiation constants", name, Self::names())),
         }
     }
 
@@ -66,6 +63,7 @@ pub fn rayleigh_jeans_radiance(lambda_nm: f64, kelvin: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ErrorKind;
     use crate::spectrum::planck_radiance;
     use approx::assert_relative_eq;
 

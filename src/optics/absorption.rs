@@ -1,4 +1,4 @@
-//! Beer–Lambert.
+//! Absorption along a path by the Beer–Lambert law.
 
 use crate::math;
 use crate::spectrum::SampledSpectrum;

@@ -194,7 +194,7 @@ impl Dispersion {
     }
 }
 
-/// Coefficients two by two; `None` if one is left over.
+/// Reads coefficients two by two; `None` if one is left over.
 fn paired(coefficients: &[f64]) -> Option<&[[f64; 2]]> {
     let (pairs, rest) = coefficients.as_chunks::<2>();
     rest.is_empty().then_some(pairs)
@@ -221,7 +221,7 @@ fn general(constant: f64, rest: &[f64]) -> Option<Dispersion> {
     Some(Dispersion::General { constant, resonances, powers: powers(paired(pairs)?) })
 }
 
-/// The coefficients with zeros behind; `None` if there are too many.
+/// Fills the coefficients up with zeros; `None` if there are too many.
 fn zero_padded<const N: usize>(coefficients: &[f64]) -> Option<[f64; N]> {
     let mut padded = [0.0; N];
     padded.get_mut(..coefficients.len())?.copy_from_slice(coefficients);

@@ -64,7 +64,7 @@ impl Table {
         &self.wavelengths_nm
     }
 
-    /// Values there.
+    /// Values at these wavelengths.
     pub fn values(&self) -> &[f64] {
         &self.values
     }

@@ -3,24 +3,24 @@
 /// What an [`AliasTable`] drew.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Draw {
-    /// The index.
+    /// Index that was drawn.
     pub index: usize,
-    /// Its probability.
+    /// Probability of that index.
     pub probability: f32,
-    /// What is left of the random number, in [0, 1) and as good as new.
+    /// Rest of the random number, uniform in [0, 1) and independent of the index.
     pub rest: f32,
 }
 
 /// Draws an index in proportion to weights \[Vose1991\].
 #[derive(Debug, Clone, Default)]
 pub struct AliasTable {
-    /// Share of column i that is i itself, and what the rest is.
+    /// For each column the share that belongs to its own index, and the index of the rest.
     columns: Vec<(f32, u32)>,
     probabilities: Vec<f32>,
 }
 
 impl AliasTable {
-    /// From weights ≥ 0. With no positive weight nothing can be drawn.
+    /// Makes a table of weights ≥ 0. With no positive weight nothing can be drawn.
     pub fn new(weights: &[f64]) -> Self {
         let total: f64 = weights.iter().sum();
         if !(total > 0.0 && total.is_finite()) {

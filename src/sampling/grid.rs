@@ -7,19 +7,19 @@ pub struct GridDensity {
     side: usize,
     /// Cumulative probability of the rows, from 0 to 1.
     rows: Vec<f32>,
-    /// Within each row, of its cells: `side` + 1 numbers a row.
+    /// Cumulative probability of the cells within each row: `side` + 1 numbers a row.
     cells: Vec<f32>,
 }
 
 impl GridDensity {
-    /// From the weights of `side`² cells, row by row; not negative, and not all 0 in any row.
+    /// Makes a density of the weights of `side`² cells, row by row; not negative, and not all 0 in any row.
     pub fn new(side: usize, weights: &[f64]) -> Self {
         let row_sums: Vec<f64> = weights.chunks(side).map(|row| row.iter().sum()).collect();
         let cells = weights.chunks(side).flat_map(cumulative).collect();
         Self { side, rows: cumulative(&row_sums), cells }
     }
 
-    /// A point for two random numbers.
+    /// Draws a point with two random numbers.
     pub fn sample(&self, [u, v]: [f32; 2]) -> [f32; 2] {
         let (row, y) = invert(&self.rows, u);
         let (column, x) = invert(self.row(row), v);
@@ -42,7 +42,7 @@ impl GridDensity {
 /// The largest f32 below 1.
 const ONE_MINUS_EPSILON: f32 = 1.0 - 0.5 * f32::EPSILON;
 
-/// Sums from 0 to exactly 1.
+/// Adds up weights into sums from 0 to exactly 1.
 fn cumulative(weights: &[f64]) -> Vec<f32> {
     let total: f64 = weights.iter().sum();
     let mut sum = 0.0;

@@ -21,7 +21,7 @@ struct Segment {
 }
 
 impl PiecewiseLinearDensity {
-    /// From strictly ascending knots and weights ≥ 0 with a positive integral.
+    /// Makes a density of strictly ascending knots and weights ≥ 0 with a positive integral.
     pub fn new(x: &[f64], weights: &[f64]) -> Self {
         assert!(x.len() == weights.len() && x.len() > 1, "a density needs two knots");
         let pieces = || x.windows(2).zip(weights.windows(2));

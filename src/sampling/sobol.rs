@@ -16,7 +16,7 @@ pub struct Sobol {
 }
 
 impl Sobol {
-    /// The sequence of a seed.
+    /// Makes the sequence of a seed.
     pub fn new(seed: u64) -> Self {
         Self { seed: mix(seed) }
     }
@@ -134,7 +134,7 @@ fn laine_karras_lanes(mut x: u32x8, seed: u32x8) -> u32x8 {
     x ^ (x * u32x8::splat(0x53a2_2864))
 }
 
-/// Eight scramble seeds out of one.
+/// Makes eight scramble seeds out of one.
 fn lane_seeds(seed: u32) -> u32x8 {
     let mut x = u32x8::splat(seed) + u32x8::new([1, 2, 3, 4, 5, 6, 7, 8]) * u32x8::splat(0x9e37_79b9);
     x ^= x >> 16;

@@ -23,7 +23,7 @@ const C2: f64 = PLANCK * LIGHT_SPEED / BOLTZMANN;
 const WIEN_NM_KELVIN: f64 = 2.897_771_955e6;
 
 /// Full width at half maximum of a Gaussian over its standard deviation: 2 √(2 ln 2).
-const FWHM_PER_SIGMA: f64 = 2.354_820_045_030_949_3;
+pub(crate) const FWHM_PER_SIGMA: f64 = 2.354_820_045_030_949_3;
 /// Narrowest line: below it, f64 wavelengths near 500 nm are too coarse to tabulate a Gaussian.
 const FWHM_MIN_NM: f64 = 1e-6;
 /// A tabulated line ends this many standard deviations from its centre, where 3e-12 of its area is left outside.
@@ -40,7 +40,7 @@ const BLACKBODY_CHORD_ERROR: f64 = 1e-5;
 /// Its unit is that of what it describes: a reflectance is dimensionless, an emission W·m⁻²·sr⁻¹·nm⁻¹.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Spectrum {
-    /// The same value at every wavelength.
+    /// A value that is the same at every wavelength.
     Constant(f64),
     /// A table.
     PiecewiseLinear(PiecewiseLinear),

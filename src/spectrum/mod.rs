@@ -9,8 +9,9 @@ mod sampled;
 mod table;
 mod wavelengths;
 
-pub(crate) use function::{BOLTZMANN, LIGHT_SPEED, PLANCK};
+pub(crate) use function::{BOLTZMANN, FWHM_PER_SIGMA, LIGHT_SPEED, PLANCK};
 pub use function::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum, planck_radiance};
+#[cfg(feature = "render")]
 pub(crate) use piecewise_linear::check_knot;
 pub use piecewise_linear::{MAX_TABULATED_VALUE, PiecewiseLinear};
 pub use sampled::{LANES, SampledSpectrum};

@@ -11,37 +11,37 @@ pub const LANES: usize = 8;
 pub struct SampledSpectrum(f32x8);
 
 impl SampledSpectrum {
-    /// 0 everywhere.
+    /// The value 0 in every lane.
     pub const ZERO: Self = Self(f32x8::ZERO);
-    /// 1 everywhere.
+    /// The value 1 in every lane.
     pub const ONE: Self = Self(f32x8::ONE);
 
-    /// The same value in every lane.
+    /// Makes a spectrum of the same value in every lane.
     pub fn splat(value: f32) -> Self {
         Self(f32x8::splat(value))
     }
 
-    /// From the lanes.
+    /// Makes a spectrum of the values of its lanes.
     pub fn new(lanes: [f32; LANES]) -> Self {
         Self(f32x8::new(lanes))
     }
 
-    /// From a function of the lane's index.
+    /// Makes a spectrum by a function of the lane's index.
     pub fn from_fn(f: impl FnMut(usize) -> f32) -> Self {
         Self::new(std::array::from_fn(f))
     }
 
-    /// The lanes.
+    /// Values of all lanes.
     pub fn lanes(self) -> [f32; LANES] {
         self.0.to_array()
     }
 
-    /// One lane.
+    /// Value of one lane.
     pub fn lane(self, lane: usize) -> f32 {
         self.0.to_array()[lane]
     }
 
-    /// This lane's value there, 0 in the others.
+    /// Keeps the value of one lane and sets the others to 0.
     pub fn only(self, lane: usize) -> Self {
         let lanes = self.lanes();
         Self::from_fn(|k| if k == lane { lanes[k] } else { 0.0 })
@@ -75,7 +75,7 @@ impl SampledSpectrum {
         self.lanes().into_iter().all(f32::is_finite)
     }
 
-    /// Lanes below the smallest normal number become 0: arithmetic on denormals is slow and loses digits.
+    /// Sets lanes below the smallest normal number to 0: arithmetic on denormals is slow and loses digits.
     pub fn without_denormals(self) -> Self {
         Self(self.0.simd_lt(f32x8::splat(f32::MIN_POSITIVE)).select(f32x8::ZERO, self.0))
     }

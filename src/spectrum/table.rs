@@ -33,17 +33,17 @@ struct Segment {
     slope: f32,
 }
 
-/// Longest table that is stored by cells, and the finest cells.
+/// Most cells of a table that is stored by cells, and the most cells per nm.
 const MAX_CELLS: f64 = 8192.0;
 const MAX_CELLS_PER_NM: u32 = 16;
 
 impl SpectrumTable {
-    /// The same value everywhere.
+    /// Makes a table of the same value at every wavelength.
     pub fn constant(value: f32) -> Self {
         Self(Layout::Constant(value))
     }
 
-    /// From strictly ascending knots in nm.
+    /// Makes a table of strictly ascending knots in nm.
     pub fn new(lambda_nm: &[f64], values: &[f64]) -> Self {
         let (first, last) = (lambda_nm[0], lambda_nm[lambda_nm.len() - 1]);
         if values.iter().all(|v| *v == values[0]) {

@@ -23,7 +23,7 @@ const OBSERVER_SHARE: f64 = 0.08;
 const UNIFORM_SHARE: f64 = 0.02;
 
 impl WavelengthDensity {
-    /// From a light's spectrum and an observer's sensitivity at the same strictly ascending knots (nm).
+    /// Makes the density of a light's spectrum and an observer's sensitivity at the same strictly ascending knots (nm).
     pub fn new(lambda_nm: &[f64], light: &[f64], sensitivity: &[f64]) -> Self {
         let product: Vec<f64> = light.iter().zip(sensitivity).map(|(l, s)| l * s).collect();
         let integral = |v: &[f64]| -> f64 {

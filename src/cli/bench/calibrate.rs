@@ -4,8 +4,9 @@
 use super::measure::{self, Run};
 use super::reference::{self, Reference};
 use super::variant::{Kind, Variant};
-use super::{Session, TARGET, usage, work::Work};
+use super::{Session, TARGET, work::Work};
 use crate::Result;
+use crate::cli::usage;
 use crate::io::output::write_atomically;
 use crate::metrics::stats;
 use crate::render::blind_spot;

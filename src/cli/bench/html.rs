@@ -1,7 +1,7 @@
 //! The benchmark as one HTML file that needs no other.
 
-use super::output::columns;
 use super::plot::{self, escaped};
+use super::table::columns;
 use super::{SceneReport, Session};
 use crate::Result;
 use crate::cli::heat;

@@ -1,10 +1,9 @@
 //! One run: a picture, and what it cost.
 
 use super::variant::{Kind, Variant};
-use super::{Session, reference::Reference, work::Work};
+use super::{Session, work::Work};
 use crate::cli::process;
 use crate::io::exr_read::{self, Preference};
-use crate::metrics::{self, Pair};
 use crate::render::{Phase, Progress, Rendering, render};
 use crate::scene::RenderSettings;
 use crate::{Error, ErrorKind, Result};
@@ -37,7 +36,7 @@ pub struct Run {
     pub claimed_relmse: Option<f64>,
     /// relMSE against the reference as it is.
     pub raw_relmse: f64,
-    /// The same without the worst 0.1 % of the pixels.
+    /// relMSE without the worst 0.1 % of the pixels.
     pub trimmed_relmse: f64,
     /// Pixels that are not finite.
     pub non_finite_pixels: usize,
@@ -68,32 +67,6 @@ impl Kinds {
     }
 }
 
-impl Run {
-    /// Fills in the errors of a picture.
-    pub fn judge(&mut self, work: &Work, picture: &Image, reference: &Reference, mask: Option<&[bool]>) -> Result<()> {
-        let pair = Pair::new(work.size()[0], picture, &reference.mean, mask)?;
-        self.raw_relmse = metrics::relative_mse(&pair);
-        self.trimmed_relmse = metrics::trimmed_relative_mse(&pair);
-        self.non_finite_pixels = pair.non_finite()[0];
-        Ok(())
-    }
-}
-
-/// Brings the picture of another program to the reference's scale.
-pub fn rescale(work: &Work, variant: &Variant, picture: &mut Image, reference: &Reference) -> Result<()> {
-    let Kind::Command { scale, .. } = variant.kind else { return Ok(()) };
-    let factor = match scale {
-        Some(factor) => factor,
-        None => {
-            let pair = Pair::new(work.size()[0], picture, &reference.mean, None)?;
-            let mean = pair.pixels().flat_map(|(test, _)| test).sum::<f64>() / (3 * pair.count()) as f64;
-            if mean > 0.0 { pair.mean() / mean } else { 1.0 }
-        }
-    };
-    picture.iter_mut().for_each(|pixel| *pixel = pixel.map(|v| v * factor));
-    Ok(())
-}
-
 /// The processor time of this process and of those it has waited for.
 pub struct Clock {
     known: bool,
@@ -101,12 +74,12 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// A clock.
+    /// Starts a clock.
     pub fn new() -> Self {
         Self { known: process::cpu_seconds().is_some(), started: Instant::now() }
     }
 
-    /// Whether the system tells; otherwise wall time stands in for processor time.
+    /// Whether the system tells the processor time; otherwise wall time stands in for it.
     pub fn is_known(&self) -> bool {
         self.known
     }

@@ -2,16 +2,18 @@
 
 mod calibrate;
 mod html;
+mod judge;
 mod measure;
 mod output;
 mod plot;
 mod reference;
 mod summary;
+mod table;
 mod variant;
 mod work;
 
 use crate::cli::compare::read_mask;
-use crate::cli::write_data;
+use crate::cli::{usage, write_data};
 use crate::{Error, ErrorKind, Result};
 use measure::{Clock, Run};
 use std::path::PathBuf;
@@ -135,14 +137,10 @@ pub fn run(args: &BenchArgs) -> Result<ExitCode> {
     output::write_files(&session, &reports)?;
     let text = match args.json {
         true => format!("{}\n", output::to_json(&session, &reports)),
-        false => output::to_table(&session, &reports),
+        false => table::to_table(&session, &reports),
     };
     write_data(&mut std::io::stdout().lock(), text.as_bytes())?;
     Ok(ExitCode::SUCCESS)
-}
-
-fn usage(message: impl Into<String>) -> Error {
-    Error::new(ErrorKind::Usage, message)
 }
 
 impl<'a> Session<'a> {
@@ -228,7 +226,7 @@ impl<'a> Session<'a> {
                 for k in 0..order.len() {
                     let p = &mut progress[order[(k + replicate as usize) % order.len()]];
                     let (mut picture, mut run) = measure::measure(self, work, p.variant, spp, seed)?;
-                    measure::rescale(work, p.variant, &mut picture, reference)?;
+                    judge::rescale(work, p.variant, &mut picture, reference)?;
                     run.judge(work, &picture, reference, mask)?;
                     p.add(run, picture);
                 }

@@ -1,10 +1,12 @@
 //! The picture that all others are measured against: made by the technique least like those on test, with its own error
 //! known, and kept for the next time.
 
+use super::Session;
 use super::measure::{self, Image, Run};
-use super::variant::{Kind, integrator_by_name, integrator_name};
+use super::variant::Kind;
 use super::work::{Work, hash_bytes};
-use super::{Session, usage};
+use crate::cli::names::{INTEGRATORS, integrator_name, named};
+use crate::cli::usage;
 use crate::io::exr::encode_planes;
 use crate::io::exr_read::{self, Preference};
 use crate::io::output::write_atomically;
@@ -18,9 +20,10 @@ use std::path::{Path, PathBuf};
 const RUNS: u64 = 8;
 /// Most samples per pixel of the runs from which the reference's cost is foreseen: renders of 32 and more plan their work.
 const PILOT_SPP: u64 = 64;
-/// Share of the time limit after which they are enough: they double, so that all take at most four times as much.
+/// The pilot's samples double until a run takes this share of the time limit, so that all its runs together take at most
+/// four times as much.
 const PILOT_SHARE: f64 = 0.025;
-/// Its own relMSE is to be this share of the lowest target.
+/// The reference is made so accurate that its own relMSE is this share of the lowest target.
 const SHARE_OF_TARGET: f64 = 0.05;
 /// Seeds of references; those on test are below.
 const FIRST_SEED: u64 = 1 << 40;
@@ -32,22 +35,22 @@ pub struct Reference {
     pub mean: Image,
     /// Variance of each of its values; `None` for a file, of whose error nothing is known.
     pub variance: Option<Image>,
-    /// How it was made.
+    /// Origin of the picture.
     pub origin: Origin,
     /// relMSE of the reference itself, over the mask.
     own_relmse: f64,
 }
 
-/// Where a reference comes from.
+/// Origin of a reference.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Origin {
-    /// A file of the user's.
+    /// A file that the user names.
     File(PathBuf),
-    /// Made here.
+    /// Rendered by the benchmark.
     Rendered {
         /// The technique.
         integrator: Integrator,
-        /// Why this one.
+        /// Reason for the choice of the technique.
         why: &'static str,
         /// Samples per pixel of each run.
         spp: u64,
@@ -77,7 +80,7 @@ impl Reference {
         }
     }
 
-    /// As JSON.
+    /// Describes the reference as JSON.
     pub fn to_json(&self) -> Value {
         match &self.origin {
             Origin::File(path) => json!({ "file": path, "relmse": Value::Null }),
@@ -121,7 +124,7 @@ fn relative_to(reference: &Image, variance: &Image, work: &Work, mask: Option<&[
 pub fn get(session: &Session, work: &Work, mask: Option<&[bool]>) -> Result<Reference> {
     let (integrator, why) = match session.args.reference.as_deref() {
         Some(name) if is_file(name) => return from_file(work, Path::new(name)),
-        Some(name) => (integrator_by_name("--reference", name)?, "as asked for"),
+        Some(name) => (named("--reference", name, &INTEGRATORS)?, "as asked for"),
         None => least_alike(session, work),
     };
     let path = path_for(session, work, integrator);
@@ -159,7 +162,7 @@ fn least_alike(session: &Session, work: &Work) -> (Integrator, &'static str) {
     }
 }
 
-/// Where the reference of a scene and its settings is kept.
+/// File in which the reference of a scene and its settings is kept.
 fn path_for(session: &Session, work: &Work, integrator: Integrator) -> PathBuf {
     let [width, height] = work.size();
     let asked = session.args.reference_spp.map_or("auto".to_owned(), |spp| spp.to_string());
@@ -193,7 +196,7 @@ fn picture_of_size(path: &Path, work: &Work) -> Result<Image> {
     Ok(picture.xyz)
 }
 
-/// What is kept is used only if all of it is there.
+/// Reads a reference that was kept; `None` unless all its files are there.
 fn from_cache(path: &Path, work: &Work, (integrator, why): (Integrator, &'static str)) -> Option<Reference> {
     let about: Value = serde_json::from_slice(&std::fs::read(path.with_extension("json")).ok()?).ok()?;
     let mean = picture_of_size(path, work).ok()?;

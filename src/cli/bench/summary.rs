@@ -33,7 +33,7 @@ pub struct Level {
 const MAX_REFERENCE_SHARE: f64 = 0.5;
 
 impl Level {
-    /// From the runs of one budget.
+    /// Sums up the runs of one budget.
     pub fn new(spp: u64, runs: Vec<Run>, reference_relmse: f64, systematic_relmse: f64) -> Self {
         let of = |value: &dyn Fn(&Run) -> f64| runs.iter().map(value).collect::<Vec<f64>>();
         let raw = of(&|run| run.raw_relmse);
@@ -113,34 +113,34 @@ impl Cost {
 pub enum Reached {
     /// After so many CPU seconds: best, and the ends of a 95 % interval.
     After {
-        /// Where the mean crosses the target.
+        /// CPU time at which the mean crosses the target.
         cpu_seconds: f64,
-        /// Where its lower bound does; 0 if already the smallest budget's does.
+        /// CPU time at which its lower bound does; 0 if already that of the smallest budget does.
         low: f64,
-        /// Where its upper bound does; infinite if it never does.
+        /// CPU time at which its upper bound does; infinite if it never does.
         high: f64,
     },
     /// Already by the smallest budget, in so many CPU seconds.
     AtOnce(f64),
-    /// Not by the largest budget, of so many CPU seconds.
+    /// The largest budget, of so many CPU seconds, does not reach the target.
     NotIn(f64),
 }
 
 /// What is known of a variant.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
-    /// Its cost; `None` while there are fewer than two budgets.
+    /// Fitted cost; `None` while there are fewer than two budgets.
     pub cost: Option<Cost>,
     /// Slope of log relMSE over log samples per pixel, with its standard error.
     pub slope: Option<(f64, f64)>,
     /// 1 / (relMSE · CPU seconds) at the largest budget that can be judged, with the fitted cost.
     pub efficiency: Option<f64>,
-    /// For each target.
+    /// Time to each target.
     pub reached: Vec<(f64, Reached)>,
 }
 
 impl Summary {
-    /// From all budgets, the smallest first.
+    /// Sums up all budgets, the smallest first.
     pub fn new(levels: &[Level], targets: &[f64]) -> Self {
         let cost = Cost::fit(levels);
         let judged: Vec<&Level> = levels.iter().filter(|level| !level.too_good && level.relmse > 0.0).collect();
@@ -190,7 +190,7 @@ fn reached(levels: &[Level], cost: Option<Cost>, target: f64) -> Reached {
     }
 }
 
-/// Where errors cross a target.
+/// Finds the CPU time at which errors cross a target.
 enum Crossing {
     /// The smallest budget is below already.
     Before,

@@ -1,8 +1,9 @@
 //! What is compared with what.
 
-use super::{usage, work::Work};
+use super::work::Work;
 use crate::Result;
-use crate::scene::description::INTEGRATORS;
+use crate::cli::names::{INTEGRATORS, named};
+use crate::cli::usage;
 use crate::scene::{Integrator, RenderSettings};
 
 const KEYS: [&str; 3] = ["integrator", "max-depth", "adaptive"];
@@ -10,9 +11,9 @@ const KEYS: [&str; 3] = ["integrator", "max-depth", "adaptive"];
 /// One way to render.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variant {
-    /// Its name in tables and plots.
+    /// Name in tables and plots.
     pub name: String,
-    /// How.
+    /// Renderer and settings.
     pub kind: Kind,
 }
 
@@ -30,7 +31,7 @@ pub enum Kind {
     },
     /// Another program.
     Command {
-        /// For the shell, with what is to be replaced.
+        /// Shell command with the placeholders that are replaced.
         template: String,
         /// Factor of its pictures; `None` makes the means equal.
         scale: Option<f64>,
@@ -87,7 +88,7 @@ fn with(variant: &Variant, key: &str, value: &str) -> Result<Variant> {
     let mut kind = variant.kind.clone();
     let Kind::Abbe { integrator, max_depth, adaptive } = &mut kind else { return Ok(variant.clone()) };
     match key {
-        "integrator" => *integrator = Some(integrator_by_name("--vary integrator", value)?),
+        "integrator" => *integrator = Some(named("--vary integrator", value, &INTEGRATORS)?),
         "max-depth" => {
             let depth = value.parse().ok().filter(|d| (1..=1 << 20).contains(d));
             *max_depth =
@@ -106,20 +107,6 @@ fn with(variant: &Variant, key: &str, value: &str) -> Result<Variant> {
     let told = if key == "integrator" { value.to_owned() } else { format!("{key} {value}") };
     let name = if variant.name.is_empty() { told } else { format!("{}, {told}", variant.name) };
     Ok(Variant { name, kind })
-}
-
-/// An integrator by its name.
-pub fn integrator_by_name(place: &str, name: &str) -> Result<Integrator> {
-    let names = || INTEGRATORS.iter().map(|(known, ..)| *known);
-    INTEGRATORS.iter().find(|(known, ..)| *known == name).map(|(_, integrator, _)| *integrator).ok_or_else(|| {
-        let known = names().collect::<Vec<_>>().join(", ");
-        usage(format!("{place}: unknown integrator {name:?}; expected one of {known}")).nearest(name, names())
-    })
-}
-
-/// The name of an integrator.
-pub fn integrator_name(integrator: Integrator) -> &'static str {
-    INTEGRATORS.iter().find(|(_, known, _)| *known == integrator).map_or("unknown", |(name, ..)| name)
 }
 
 fn command(text: &str, scale: &str) -> Result<Variant> {

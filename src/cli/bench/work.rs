@@ -1,7 +1,7 @@
 //! A scene to render many times.
 
-use super::usage;
-use crate::scene::description::{self, LightKind, MaterialKind, SceneDescription};
+use crate::cli::values::resolution as parse_resolution;
+use crate::scene::description::{self, LightKind, SceneDescription};
 use crate::scene::{Compiled, compile};
 use crate::{Error, ErrorKind, Result, sampling};
 use std::path::{Path, PathBuf};
@@ -13,13 +13,13 @@ pub struct Work {
     pub name: String,
     /// The scene.
     pub compiled: Compiled,
-    /// How it was described.
+    /// Description that the scene was compiled from.
     pub description: SceneDescription,
-    /// Wall time of compiling it.
+    /// Wall time of compiling the scene, seconds.
     pub compile_seconds: f64,
-    /// One line each.
+    /// Warnings of reading and compiling the scene, one line each.
     pub warnings: Vec<String>,
-    /// Of the scene file and all files that it names.
+    /// Hash of the scene file and of all files that it names.
     pub content_hash: u64,
 }
 
@@ -67,20 +67,10 @@ impl Work {
         !self.has_specular() && !infinite
     }
 
-    /// Whether there is anything but matte surfaces, and so perhaps caustics.
+    /// Whether there is anything that gathers light into caustics.
     pub fn has_specular(&self) -> bool {
-        let materials = &self.description.materials;
-        let of_objects = self.description.objects.iter().filter_map(|object| object.material);
-        of_objects.into_iter().any(|index| !matches!(materials[index].1.kind, MaterialKind::Diffuse { .. }))
+        self.compiled.scene.objects.iter().any(|object| object.material.focuses())
     }
-}
-
-/// `WIDTHxHEIGHT`.
-fn parse_resolution(text: &str) -> Result<(u32, u32)> {
-    let legal = |n: &u32| (1..=1 << 16).contains(n);
-    let parse = |text: &str| text.parse().ok().filter(legal);
-    let sizes = text.split_once(['x', 'X']).and_then(|(w, h)| Some((parse(w)?, parse(h)?)));
-    sizes.ok_or_else(|| usage(format!("--resolution {text}: expected WIDTHxHEIGHT in pixels, such as 640x480")))
 }
 
 /// Hash of a scene file's bytes and of those of every file named in it.

@@ -37,7 +37,7 @@ pub struct Report {
     pub color_difference: ColorDifference,
     /// Mean FLIP.
     pub flip: f64,
-    /// Of each channel.
+    /// Bias of each channel.
     pub bias: [Bias; 3],
 }
 
@@ -94,7 +94,7 @@ impl Report {
         }
     }
 
-    /// As one object; infinite values are null.
+    /// Writes the report as one JSON object; infinite values are null.
     pub fn to_json(&self, args: &CompareArgs, exceeded: &[String]) -> Value {
         let bias: Vec<Value> = names(args.channels)
             .into_iter()
@@ -121,7 +121,7 @@ impl Report {
         })
     }
 
-    /// As lines for people.
+    /// Writes the report as lines for people.
     pub fn to_table(&self, args: &CompareArgs) -> String {
         let [from_a, from_b] = self.sources.map(told);
         let (a, b) = (args.test.display(), args.reference.display());

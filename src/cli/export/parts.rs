@@ -37,7 +37,7 @@ pub struct Parts {
 
 /// A shape with its surface.
 pub struct Object {
-    /// Its geometry.
+    /// Shape of the object.
     pub shape: Shape,
     /// How it scatters.
     pub surface: Surface,
@@ -45,7 +45,7 @@ pub struct Object {
     pub two_sided: bool,
     /// Emitted radiance, and whether by both sides.
     pub emission: Option<(Table, bool)>,
-    /// Its place in the scene.
+    /// JSON path of the object in the scene.
     pub at: String,
 }
 
@@ -84,7 +84,7 @@ pub enum Surface {
 /// A spectrum: a constant, or values at wavelengths in nm.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Table {
-    /// The same value everywhere.
+    /// Makes a table with the same value at every wavelength.
     Constant(f64),
     /// Linear between knots over the whole range.
     Sampled(Vec<(f64, f64)>),
@@ -128,7 +128,8 @@ fn area(knots: &[(f64, f64)]) -> f64 {
 }
 
 impl Parts {
-    /// From a scene as described and as compiled. Indices that depend on the wavelength are taken at `at_nm`, or kept.
+    /// Collects the parts of a scene from its description and from the compiled scene. Indices that depend on the
+    /// wavelength are taken at `at_nm`, or kept.
     pub fn new(description: &SceneDescription, compiled: &Compiled, stem: &str, at_nm: Option<f64>) -> Result<Self> {
         let scene = &compiled.scene;
         let mut meshes = Vec::new();

@@ -17,7 +17,7 @@ const LABELS_NM: [u32; 12] = [470, 480, 490, 500, 510, 520, 540, 560, 580, 600, 
 /// Labelled temperatures on the Planckian locus, K.
 const LABELS_KELVIN: [f64; 3] = [3000.0, 5000.0, 10_000.0];
 
-/// From x, y to pixels, at the same scale along both.
+/// Maps x, y to pixels, at the same scale along both axes.
 struct Diagram {
     x: Scale,
     y: Scale,

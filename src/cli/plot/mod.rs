@@ -58,7 +58,7 @@ pub struct Plot<'a> {
     pub curves: Vec<Curve<'a>>,
     /// The light that a reflectance or transmittance stands in.
     pub lamp: Option<(&'a str, PiecewiseLinear)>,
-    /// Whose chromaticity diagram it is.
+    /// Observer whose chromaticity diagram is drawn.
     pub observer: &'a Observer,
     /// The space whose triangle is drawn.
     pub space: &'a RgbSpace,
@@ -69,15 +69,15 @@ pub struct Plot<'a> {
 /// One spectrum.
 #[derive(Debug)]
 pub struct Curve<'a> {
-    /// Its name.
+    /// Name of the spectrum.
     pub name: &'a str,
-    /// Its samples.
+    /// Samples of the spectrum.
     pub table: &'a PiecewiseLinear,
-    /// Its colour as sRGB.
+    /// Colour of the spectrum as sRGB.
     pub color: [u8; 3],
-    /// Its chromaticity; NaN for black.
+    /// Chromaticity of the spectrum; NaN for black.
     pub xy: [f64; 2],
-    /// Where the line from the white through it meets the locus.
+    /// Point at which the line from the white through the chromaticity meets the locus.
     pub dominant_xy: Option<[f64; 2]>,
 }
 

@@ -25,7 +25,7 @@ impl Scale {
 pub struct Ticks {
     /// The first and last are at or beyond the range they were made for.
     pub values: Vec<f64>,
-    /// As many digits after the point as the steps have, or powers of ten.
+    /// Writes a number with as many digits after the point as the steps have, or as a power of ten.
     pub labels: Vec<String>,
 }
 

@@ -4,13 +4,15 @@ mod progress;
 mod report;
 mod write;
 
-use super::process;
+use super::names::{INTEGRATORS, TONEMAPS, listed, named};
+use super::values::{exposure, resolution};
+use super::{process, usage};
 use crate::color::Observer;
 use crate::film::Film;
 use crate::render::{Progress, blind_spot, render};
 use crate::scene::description::{self, SceneDescription};
 use crate::scene::{Compiled, compile};
-use crate::{Error, ErrorKind, Result};
+use crate::{DevelopSettings, Error, ErrorKind, Result};
 use progress::ProgressDisplay;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -39,8 +41,7 @@ pub struct RenderArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH")]
     pub resolution: Option<String>,
-    /// auto, path, light, merge or hero
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = format!("Integrator: {}", listed(&INTEGRATORS)))]
     pub integrator: Option<String>,
     /// Observer whose XYZ is recorded: 1931-2, 1964-10, 2015-2 or 2015-10
     #[arg(long, value_name = "NAME")]
@@ -48,12 +49,8 @@ pub struct RenderArgs {
     /// Exposure of PNGs in stops, or auto
     #[arg(long, value_name = "EV", allow_negative_numbers = true)]
     pub exposure: Option<String>,
-    /// Tone mapping of PNGs: srgb, exponential or reinhard
-    #[arg(long, value_name = "OP")]
+    #[arg(long, value_name = "OP", help = format!("Tone mapping of PNGs: {}", listed(&TONEMAPS)))]
     pub tonemap: Option<String>,
-    /// Spectral bands in the EXR (not yet)
-    #[arg(long, value_name = "N", hide = true)]
-    pub bands: Option<String>,
     /// Stop after this time, reading the scene included
     #[arg(long, value_name = "SECONDS")]
     pub time: Option<f64>,
@@ -96,12 +93,15 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let outputs = outputs(args)?;
     let (mut description, mut warnings) = read(&args.scene)?;
     override_settings(&mut description, args)?;
+    let develop = develop_settings(&description, args)?;
+    let integrator = args.integrator.as_ref().map(|name| named("--integrator", name, &INTEGRATORS)).transpose()?;
     check_memory(&description)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, usize::from))
         .build()
         .map_err(|e| Error::new(ErrorKind::Io, format!("cannot start threads: {e}")))?;
     let mut compiled = pool.install(|| compile(&description))?;
+    compiled.render.integrator = integrator.unwrap_or(compiled.render.integrator);
     stop_as_asked(&mut compiled, args, started)?;
     warnings.extend_from_slice(&compiled.warnings);
     if !args.quiet {
@@ -122,21 +122,15 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     });
     bar.finish();
 
-    let written =
-        Written { args, outputs: &outputs, description: &description, compiled: &compiled, compiling, started };
-    written.write(&rendering)?;
+    let written = Written { args, outputs: &outputs, file: &description.file, develop, compiled: &compiled, compiling };
+    let (seconds, writing) = (started.elapsed().as_secs_f64(), Instant::now());
+    written.write(&rendering, seconds)?;
+    report::report(&written, &rendering, seconds, writing.elapsed())?;
     Ok(if rendering.statistics.complete { ExitCode::SUCCESS } else { ExitCode::from(super::INTERRUPTED) })
-}
-
-fn usage(message: impl Into<String>) -> Error {
-    Error::new(ErrorKind::Usage, message)
 }
 
 /// Refuses what makes no sense before any work is done.
 fn check(args: &RenderArgs) -> Result<()> {
-    if args.bands.is_some() {
-        return Err(usage("`--bands` is not there yet"));
-    }
     if let Some(seconds) = args.time.filter(|seconds| !(0.0..=1e9).contains(seconds)) {
         return Err(usage(format!("--time {seconds}: expected seconds, from 0 to a billion")));
     }
@@ -223,39 +217,30 @@ fn read(path: &Path) -> Result<(SceneDescription, Vec<String>)> {
     Ok((parsed.description, parsed.warnings))
 }
 
-/// What the command line says wins over the scene.
+/// Sets what the command line says of sampling and of the size instead of the scene.
 fn override_settings(description: &mut SceneDescription, args: &RenderArgs) -> Result<()> {
     let render = &mut description.render;
     render.samples_per_pixel = args.spp.unwrap_or(render.samples_per_pixel);
     render.seed = args.seed.unwrap_or(render.seed);
-    if let Some(name) = &args.integrator {
-        render.integrator = named("--integrator", name, description::INTEGRATORS)?;
-    }
-    if let Some(name) = &args.tonemap {
-        description.develop.tonemap = named("--tonemap", name, description::TONEMAPS)?;
-    }
     if let Some(name) = &args.observer {
         description.film.observer = Observer::by_name(name).map_err(|e| e.at("--observer"))?.name().to_owned();
     }
-    if let Some(text) = &args.exposure {
-        description.develop.exposure_ev = match text.as_str() {
-            "auto" => None,
-            _ => {
-                let stops: Option<f64> = text.parse().ok().filter(|ev: &f64| ev.abs() <= 200.0);
-                Some(stops.ok_or_else(|| usage(format!("--exposure {text}: expected stops in [-200, 200], or auto")))?)
-            }
-        };
-    }
     if let Some(text) = &args.resolution {
-        let sizes =
-            text.split_once(['x', 'X']).and_then(|(w, h)| Some((w.parse::<u32>().ok()?, h.parse::<u32>().ok()?)));
-        let legal = |n: u32| (1..=1 << 20).contains(&n);
-        let (width, height) = sizes
-            .filter(|(w, h)| legal(*w) && legal(*h) && u64::from(*w) * u64::from(*h) <= 1 << 32)
-            .ok_or_else(|| usage(format!("--resolution {text}: expected WIDTHxHEIGHT in pixels, such as 640x480")))?;
-        (description.film.width, description.film.height) = (width, height);
+        (description.film.width, description.film.height) = resolution(text)?;
     }
     Ok(())
+}
+
+/// How the scene, or else the command line, develops pictures.
+fn develop_settings(description: &SceneDescription, args: &RenderArgs) -> Result<DevelopSettings> {
+    let mut settings = DevelopSettings::from(&description.develop);
+    if let Some(name) = &args.tonemap {
+        settings.tonemap = named("--tonemap", name, &TONEMAPS)?;
+    }
+    if let Some(text) = &args.exposure {
+        settings.exposure_ev = exposure(text)?;
+    }
+    Ok(settings)
 }
 
 /// Refuses a film that does not fit into memory before any work is done.
@@ -274,14 +259,6 @@ fn check_memory(description: &SceneDescription) -> Result<()> {
         }
         _ => Ok(()),
     }
-}
-
-fn named<T: Copy>(flag: &str, name: &str, known: &[(&str, T, &str)]) -> Result<T> {
-    let names = known.iter().map(|(n, ..)| *n);
-    known.iter().find(|(n, ..)| *n == name).map(|(_, value, _)| *value).ok_or_else(|| {
-        let list = names.clone().collect::<Vec<_>>().join(", ");
-        usage(format!("{flag} {name}: expected one of {list}")).nearest(name, names)
-    })
 }
 
 /// A flag that Ctrl-C raises; a second Ctrl-C ends the process at once.

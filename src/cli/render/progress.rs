@@ -21,7 +21,7 @@ enum Measure {
 }
 
 impl ProgressDisplay {
-    /// For a render that has just begun.
+    /// Starts the display of a render that has just begun.
     pub fn new(quiet: bool, settings: &RenderSettings, started: Instant) -> Self {
         let (of, template) = match (settings.deadline, settings.target_error) {
             (_, Some(target)) => (Measure::Error(target), "{spinner} {elapsed}, {msg}"),

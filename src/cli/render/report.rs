@@ -76,7 +76,7 @@ fn tell(rendering: &Rendering) {
     );
 }
 
-/// Where the time went: by phase, and what of it was finding intersections.
+/// Prints the time of each phase, and the part of it that went into finding intersections.
 fn tell_profile(rendering: &Rendering, compiling: Duration, writing: Duration) {
     let Rendering { profile, statistics, .. } = rendering;
     let phases = phases(profile, compiling, writing);

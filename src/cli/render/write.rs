@@ -1,18 +1,16 @@
-//! Writes the pictures of a render, and tells of it.
+//! Writes the pictures of a render.
 
-use super::{Format, RenderArgs, extension, is_stdout, report};
-use crate::Result;
+use super::{Format, RenderArgs, extension, is_stdout};
 use crate::cli::write_data;
-use crate::develop;
 use crate::film::Film;
 use crate::io::exr::Attributes;
 use crate::io::output::write_atomically;
 use crate::io::{exr, png};
 use crate::render::{Rendering, Statistics};
 use crate::scene::Compiled;
-use crate::scene::description::SceneDescription;
+use crate::{DevelopSettings, Result};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What is to be written of a render.
 pub struct Written<'a> {
@@ -20,21 +18,19 @@ pub struct Written<'a> {
     pub args: &'a RenderArgs,
     /// The files.
     pub outputs: &'a [PathBuf],
-    /// The scene as it was read.
-    pub description: &'a SceneDescription,
+    /// The scene's file.
+    pub file: &'a Path,
+    /// How PNGs are developed.
+    pub develop: DevelopSettings,
     /// The scene as it was rendered.
     pub compiled: &'a Compiled,
     /// What reading and compiling took.
     pub compiling: Duration,
-    /// When the program started.
-    pub started: Instant,
 }
 
 impl Written<'_> {
-    /// Writes the files, then the report.
-    pub fn write(&self, rendering: &Rendering) -> Result<()> {
-        let writing = Instant::now();
-        let seconds = self.started.elapsed().as_secs_f64();
+    /// Writes the files. `seconds` is the wall time of the render.
+    pub fn write(&self, rendering: &Rendering, seconds: f64) -> Result<()> {
         for path in self.outputs {
             let bytes = match extension(path) {
                 Some(Format::Exr) => self.exr(path, &rendering.film, &rendering.statistics, seconds)?,
@@ -45,12 +41,12 @@ impl Written<'_> {
                 false => write_atomically(path, &bytes)?,
             }
         }
-        report::report(self, rendering, seconds, writing.elapsed())
+        Ok(())
     }
 
     fn exr(&self, path: &Path, film: &Film, statistics: &Statistics, seconds: f64) -> Result<Vec<u8>> {
         let attributes = Attributes {
-            scene_hash: scene_hash(&self.description.file),
+            scene_hash: scene_hash(self.file),
             seed: self.compiled.render.seed,
             samples_per_pixel: statistics.samples,
             seconds,
@@ -64,8 +60,7 @@ impl Written<'_> {
     }
 
     fn png(&self, film: &Film) -> Result<Vec<u8>> {
-        let settings = &self.description.develop;
-        let picture = develop::develop(&film.to_xyz(), film.width(), settings.exposure_ev, settings.tonemap);
+        let picture = film.develop(&self.develop);
         if self.args.verbose {
             let outside = picture.out_of_gamut * 100.0;
             eprintln!("developed at {:+.2} EV; {outside:.2} % of the pixels were outside sRGB", picture.exposure_ev);

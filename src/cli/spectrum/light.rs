@@ -19,9 +19,9 @@ const FILE_EXTENSIONS: [&str; 7] = ["csv", "txt", "tsv", "dat", "spd", "spdx", "
 /// An illuminant.
 #[derive(Debug)]
 pub struct Lamp {
-    /// As it was asked for.
+    /// Name, file or temperature that was asked for.
     pub name: String,
-    /// Its relative power.
+    /// Relative spectral power of the lamp.
     pub spectrum: Spectrum,
 }
 
@@ -91,7 +91,7 @@ pub struct Rendering {
 }
 
 impl LightFacts {
-    /// Those of a spectrum.
+    /// Computes the facts of a spectrum.
     pub fn of(spectrum: &Spectrum) -> Self {
         let xyz = xyz_of_emission(spectrum, Observer::cie_1931_2deg());
         let correlated = temperature::correlated(temperature::uv_from_xyz(xyz)).ok();

@@ -37,7 +37,7 @@ pub fn adaptation(name: Option<&str>, quantity: Quantity) -> Adaptation {
 pub struct Viewing {
     /// What the values are.
     pub quantity: Quantity,
-    /// Who looks.
+    /// Observer whose colour-matching functions are used.
     pub observer: &'static Observer,
     /// Space of RGB values.
     pub space: &'static RgbSpace,
@@ -70,11 +70,11 @@ pub struct Measurement {
     pub in_gamut: bool,
     /// The shown colour, moved into the gamut, in 8 bits of the space.
     pub rgb8: [u8; 3],
-    /// The same for sRGB, which screens and drawings show.
+    /// The shown colour, moved into the gamut of sRGB, in 8 bits: terminals and drawings show this.
     pub srgb8: [u8; 3],
     /// Dominant wavelength and purity against the lamp's white; `None` for colours without a hue.
     pub dominant: Option<Dominant>,
-    /// For emissions.
+    /// What is said of a light; `None` unless the spectrum is an emission.
     pub light: Option<LightFacts>,
 }
 
@@ -137,7 +137,7 @@ fn is_in_gamut(linear: DVec3) -> bool {
     gamut::excess(LinearRgb(linear)) <= ROUNDING
 }
 
-/// In 8 bits: as it is inside the gamut, else with less chroma at the same lightness and hue.
+/// Encodes a colour in 8 bits. Outside the gamut it gets less chroma at the same lightness and hue.
 fn bytes(space: &RgbSpace, linear: DVec3) -> [u8; 3] {
     let mapper = || GamutMapper::new(space, GamutMethod::Desaturate);
     let inside = if is_in_gamut(linear) { linear } else { mapper().map(LinearRgb(linear)).0 };

@@ -121,9 +121,9 @@ fn check_plot(args: &SpectrumArgs) -> Result<()> {
 
 /// What is read.
 struct Input {
-    /// As errors and JSON name it.
+    /// Name of the file in errors and JSON.
     file: PathBuf,
-    /// As pictures name it.
+    /// Title of drawings.
     title: String,
     spectra: Vec<NamedSpectrum>,
     quantity: Option<Quantity>,
@@ -214,7 +214,8 @@ fn warnings(input: &Input, measured: &[Measured]) -> Vec<String> {
             [name] => format!(" column {name:?}:"),
             names => format!(" {} of {count} columns:", names.len()),
         };
-        format!("{file}:{whose} {} [{}]", finding.message, finding.name)
+        let advice = if finding.name == "looks_like_percent" { "; use --percent if they are" } else { "" };
+        format!("{file}:{whose} {}{advice} [{}]", finding.message, finding.name)
     };
     told.into_iter().map(line).collect()
 }

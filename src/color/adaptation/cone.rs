@@ -1,6 +1,6 @@
 //! Von Kries' rule in the cone-like responses of twelve transforms.
 
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, Result};
 use glam::{DMat3, DVec3};
 
 /// Responses in which adaptation is a scaling of each by the ratio of the whites.
@@ -8,19 +8,19 @@ use glam::{DMat3, DVec3};
 pub enum ConeTransform {
     /// Bianco and Schettini 2010 \[Bianco2010\].
     Bianco2010,
-    /// The same with only positive responses \[Bianco2010\].
+    /// The transform of Bianco and Schettini with only positive responses \[Bianco2010\].
     BiancoPc2010,
     /// Bradford \[Lam1985\].
     Bradford,
-    /// Of CIECAM02 \[Moroney2002\].
+    /// CAT02, the transform of CIECAM02 \[Moroney2002\].
     Cat02,
     /// CAT02 with a blue response that cannot be negative \[Brill2008\].
     Cat02Brill2008,
-    /// Of CIECAM16 \[Li2017\].
+    /// CAT16, the transform of CIECAM16 \[Li2017\].
     Cat16,
-    /// Of CMCCAT97 \[Luo1998\]: Bradford's responses, here without CMCCAT97's exponent of blue.
+    /// The transform of CMCCAT97 \[Luo1998\]: Bradford's responses, here without CMCCAT97's exponent of blue.
     Cmccat97,
-    /// Of CMCCAT2000 \[Li2002\].
+    /// The transform of CMCCAT2000 \[Li2002\].
     Cmccat2000,
     /// Fairchild's \[Fairchild2013\].
     Fairchild,
@@ -61,13 +61,13 @@ impl ConeTransform {
     /// A transform by its name: `bradford`, `cat16`, …
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the nearest name.
+    /// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
     pub fn by_name(name: &str) -> Result<Self> {
-        NAMED.into_iter().find(|(known, _)| *known == name).map(|(_, transform)| transform).ok_or_else(|| {
-            let known = Self::names().collect::<Vec<_>>().join(", ");
-            let message = format!("unknown chromatic adaptation transform {name:?}; expected one of {known}");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        NAMED
+            .into_iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, transform)| transform)
+            .ok_or_else(|| Error::unknown_name("chromatic adaptation transform", name, Self::names()))
     }
 
     /// XYZ to cone-like responses.
@@ -114,6 +114,7 @@ impl ConeTransform {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ErrorKind;
     use crate::color::xyz_from_xy;
 
     #[test]

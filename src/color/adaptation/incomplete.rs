@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 /// What surrounds the adapting field, for [`cmccat2000`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Surround {
-    /// As bright as the field: surface colours.
+    /// The surround is as bright as the field, as for surface colours.
     Average,
     /// Dim or dark: screens and projections.
     Dim,

@@ -68,10 +68,11 @@ impl Surround {
     /// # Errors
     /// [`ErrorKind::UnknownName`] with the nearest name.
     pub fn by_name(name: &str) -> Result<Self> {
-        Self::NAMED.into_iter().find(|(known, _)| *known == name).map(|(_, surround)| surround).ok_or_else(|| {
-            let message = format!("unknown surround {name:?}; expected \"average\", \"dim\" or \"dark\"");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        Self::NAMED
+            .into_iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, surround)| surround)
+            .ok_or_else(|| Error::unknown_name("surround", name, Self::names()))
     }
 }
 
@@ -192,10 +193,7 @@ impl AppearanceModel {
             "ciecam16" => Ciecam16::new(conditions).map(Self::Ciecam16),
             "hellwig2022" => Hellwig2022::new(conditions).map(Self::Hellwig2022),
             "zcam" => Zcam::new(conditions).map(Self::Zcam),
-            _ => {
-                let message = format!("unknown appearance model {name:?}; expected one of {}", Self::NAMES.join(", "));
-                Err(Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names()))
-            }
+            _ => Err(Error::unknown_name("appearance model", name, Self::names())),
         }
     }
 

@@ -47,7 +47,7 @@ pub(super) struct UniqueHues {
     pub eccentricities: [f64; 4],
 }
 
-/// Of CIECAM02 \[CIE159\].
+/// Compression of CIECAM02 \[CIE159\].
 pub(super) const UNIQUE_HUES: UniqueHues =
     UniqueHues { degrees: [20.14, 90.0, 164.25, 237.53], eccentricities: [0.8, 0.7, 1.0, 1.2] };
 
@@ -147,7 +147,7 @@ pub(super) fn response_from_opponent(achromatic: f64, a: f64, b: f64) -> DVec3 {
     ) / 1403.0
 }
 
-/// From compressed responses to appearance and back, as CIECAM02, CAM16 and CIECAM16 have it in common.
+/// Turns compressed responses into appearance and back, as CIECAM02, CAM16 and CIECAM16 have it in common.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Correlates {
     pub setting: Setting,

@@ -1,7 +1,7 @@
 //! Uniform spaces over the appearance models: where equal distances look equally different.
 
 use crate::math::{cos, exp_m1, ln_1p, sin};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, Result};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -18,13 +18,13 @@ pub struct UniformSpace {
 }
 
 impl UniformSpace {
-    /// For differences of any size.
+    /// CAM02-UCS or CAM16-UCS, for differences of any size.
     pub const UCS: Self =
         Self { lightness_divisor: 1.0, lightness_compression: 0.007, colorfulness_compression: 0.0228 };
-    /// For large differences.
+    /// CAM02-LCD or CAM16-LCD, for large differences.
     pub const LCD: Self =
         Self { lightness_divisor: 0.77, lightness_compression: 0.007, colorfulness_compression: 0.0053 };
-    /// For small differences.
+    /// CAM02-SCD or CAM16-SCD, for small differences.
     pub const SCD: Self =
         Self { lightness_divisor: 1.24, lightness_compression: 0.007, colorfulness_compression: 0.0363 };
 
@@ -38,12 +38,13 @@ impl UniformSpace {
     /// `ucs`, `lcd` or `scd`.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the nearest name.
+    /// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
     pub fn by_name(name: &str) -> Result<Self> {
-        Self::NAMED.into_iter().find(|(known, _)| *known == name).map(|(_, space)| space).ok_or_else(|| {
-            let message = format!("unknown uniform space {name:?}; expected \"ucs\", \"lcd\" or \"scd\"");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        Self::NAMED
+            .into_iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, space)| space)
+            .ok_or_else(|| Error::unknown_name("uniform space", name, Self::names()))
     }
 
     /// J', a', b' from lightness, colourfulness and hue in degrees.

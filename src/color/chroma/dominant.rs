@@ -7,7 +7,7 @@ use super::locus::Locus;
 use crate::color::Observer;
 use glam::DVec2;
 
-/// Where the half-line from the white through a chromaticity leaves the diagram, and what follows from it.
+/// Point at which the half-line from the white through a chromaticity leaves the diagram, and what follows from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dominant {
     /// Dominant wavelength, nm; of a purple the complementary wavelength.
@@ -16,7 +16,7 @@ pub struct Dominant {
     pub is_complementary: bool,
     /// Chromaticity of `lambda_nm`.
     pub spectral_xy: [f64; 2],
-    /// Where the half-line leaves the diagram: on the locus, for purples on the line that joins the locus' ends.
+    /// Point at which the half-line leaves the diagram: on the locus, for purples on the line that joins the locus' ends.
     pub boundary_xy: [f64; 2],
     /// Distance from the white over that of the boundary: 0 for white, 1 on the boundary, above 1 outside.
     pub excitation_purity: f64,

@@ -22,7 +22,7 @@ pub(super) struct Locus {
     pub hull: Vec<usize>,
 }
 
-/// Where a half-line leaves the diagram; no wavelength on the line of purples.
+/// Point at which a half-line leaves the diagram; it has no wavelength on the line of purples.
 #[derive(Clone, Copy)]
 pub(super) struct Cut {
     pub lambda_nm: Option<f64>,
@@ -80,7 +80,7 @@ impl Locus {
         chain
     }
 
-    /// Where the half-line leaves the diagram for the last time.
+    /// Finds the point at which the half-line leaves the diagram for the last time.
     pub fn outermost_cut(&self, start: DVec2, direction: DVec2) -> Option<Cut> {
         let cuts = self.sides().filter_map(|(i, j)| self.cut(i, j, start, direction));
         cuts.filter(|cut| cut.distance > 0.0).max_by(|a, b| a.distance.total_cmp(&b.distance))

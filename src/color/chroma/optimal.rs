@@ -21,9 +21,9 @@ const PIVOTS_MAX: usize = 150;
 /// A surface that reflects everything in a band and nothing outside, or nothing inside and everything outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OptimalColor {
-    /// Where reflectance steps from 0 to 1, nm.
+    /// Wavelength at which the reflectance steps from 0 to 1, nm.
     pub from_nm: f64,
-    /// Where it steps from 1 to 0, nm; below `from_nm` for a purple, which reflects both ends of the spectrum.
+    /// Wavelength at which it steps from 1 to 0, nm; below `from_nm` for a purple, which reflects both ends of the spectrum.
     pub to_nm: f64,
     /// XYZ under the illuminant; the perfect diffuser has Y = 1.
     pub xyz: DVec3,
@@ -42,7 +42,7 @@ pub struct OptimalColors {
 }
 
 impl OptimalColors {
-    /// Of an illuminant without negative power and with positive luminance, in any unit.
+    /// Computes the optimal colours of an illuminant without negative power and with positive luminance, in any unit.
     ///
     /// # Errors
     /// Negative power, or no luminance.

@@ -1,7 +1,7 @@
 //! The differences of two CIE Lab colours by name.
 
 use super::*;
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, Result};
 
 /// A difference of two CIE Lab colours; where it is not symmetric the first is the reference.
 pub type LabDifference = fn(DVec3, DVec3) -> f64;
@@ -32,19 +32,16 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// A difference of Lab colours by its name.
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] with the nearest name.
+/// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
 pub fn by_name(name: &str) -> Result<LabDifference> {
     let found = DIFFERENCES.iter().find(|(known, _)| *known == name);
-    found.map(|(_, difference)| *difference).ok_or_else(|| {
-        let known = names().collect::<Vec<_>>().join(", ");
-        let message = format!("unknown colour difference {name:?}; expected one of {known}");
-        Error::new(ErrorKind::UnknownName, message).nearest(name, names())
-    })
+    found.map(|(_, difference)| *difference).ok_or_else(|| Error::unknown_name("colour difference", name, names()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ErrorKind;
 
     #[test]
     fn every_name_is_a_difference() {

@@ -5,9 +5,9 @@ use crate::color::{Observer, daylight};
 use crate::spectrum::resample::{Extrapolation, Grid, Interpolation, align};
 use crate::{Error, ErrorKind, Result};
 
-/// Where the reference of the older indices turns from a blackbody to daylight, K.
+/// Temperature at which the reference of the older indices turns from a blackbody to daylight, K.
 const DAYLIGHT_FROM_KELVIN: f64 = 5000.0;
-/// Where that of CIE 224 begins to turn; it ends at [`DAYLIGHT_FROM_KELVIN`].
+/// Temperature at which the reference of CIE 224 begins to turn; it has turned at [`DAYLIGHT_FROM_KELVIN`].
 const MIXED_FROM_KELVIN: f64 = 4000.0;
 /// Highest temperature for which the CIE defines daylight, K.
 const DAYLIGHT_TO_KELVIN: f64 = 25_000.0;

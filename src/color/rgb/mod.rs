@@ -2,55 +2,13 @@
 
 mod published;
 mod spaces;
+mod values;
 
 use super::adaptation::ConeTransform;
 use super::{Transfer, xyz_from_xy};
 use crate::{Error, ErrorKind, Result};
 use glam::{DMat3, DVec3};
-
-/// A colour proportional to light: red, green, blue of some [`RgbSpace`], where [1, 1, 1] is its white.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct LinearRgb(pub DVec3);
-
-/// A colour as files and signals hold it: red, green, blue of some [`RgbSpace`] after its transfer function.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct EncodedRgb(pub DVec3);
-
-impl LinearRgb {
-    /// From components.
-    pub const fn new(red: f64, green: f64, blue: f64) -> Self {
-        Self(DVec3::new(red, green, blue))
-    }
-
-    /// Red, green, blue.
-    pub fn to_array(self) -> [f64; 3] {
-        self.0.to_array()
-    }
-}
-
-impl EncodedRgb {
-    /// From components.
-    pub const fn new(red: f64, green: f64, blue: f64) -> Self {
-        Self(DVec3::new(red, green, blue))
-    }
-
-    /// Red, green, blue.
-    pub fn to_array(self) -> [f64; 3] {
-        self.0.to_array()
-    }
-}
-
-impl From<[f64; 3]> for LinearRgb {
-    fn from(rgb: [f64; 3]) -> Self {
-        Self(rgb.into())
-    }
-}
-
-impl From<[f64; 3]> for EncodedRgb {
-    fn from(rgb: [f64; 3]) -> Self {
-        Self(rgb.into())
-    }
-}
+pub use values::{EncodedRgb, LinearRgb};
 
 /// An RGB space.
 ///
@@ -127,11 +85,7 @@ impl RgbSpace {
     pub fn by_name(name: &str) -> Result<&'static RgbSpace> {
         let canonical = spaces::OTHER_NAMES.iter().find(|(other, _)| *other == name).map_or(name, |(_, same)| *same);
         let found = Self::all().iter().chain(Self::published()).find(|space| space.name == canonical);
-        found.ok_or_else(|| {
-            let known = Self::names().collect::<Vec<_>>().join(", ");
-            let message = format!("unknown RGB space {name:?}; expected one of {known}");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        found.ok_or_else(|| Error::unknown_name("RGB space", name, Self::names()))
     }
 
     /// IEC 61966-2-1 sRGB, whose primaries are those of Rec. 709 \[IEC61966\].

@@ -4,7 +4,7 @@ use super::RgbSpace;
 use glam::DMat3;
 use std::sync::LazyLock;
 
-/// As printed: rows.
+/// A matrix as printed, by rows.
 type Rows = [[f64; 3]; 3];
 
 static SPACES: LazyLock<Vec<RgbSpace>> = LazyLock::new(|| {

@@ -27,25 +27,25 @@ const ACES_WHITE: [f64; 2] = [0.32168, 0.33767];
 /// Chromaticity of the white of digital cinema projectors.
 const DCI_WHITE: [f64; 2] = [0.314, 0.351];
 
-/// Of BT.709 and sRGB.
+/// Primaries of BT.709 and sRGB.
 const REC709: Primaries = [[0.64, 0.33], [0.3, 0.6], [0.15, 0.06]];
-/// Of BT.2020, which are monochromatic.
+/// Primaries of BT.2020, which are monochromatic.
 const REC2020: Primaries = [[0.708, 0.292], [0.17, 0.797], [0.131, 0.046]];
-/// Of digital cinema projectors.
+/// Primaries of digital cinema projectors.
 const P3: Primaries = [[0.68, 0.32], [0.265, 0.69], [0.15, 0.06]];
-/// Of European television, BT.601 with 625 lines.
+/// Primaries of European television, BT.601 with 625 lines.
 const PAL: Primaries = [[0.64, 0.33], [0.29, 0.6], [0.15, 0.06]];
-/// Of American television, BT.601 with 525 lines.
+/// Primaries of American television, BT.601 with 525 lines.
 const SMPTE_C: Primaries = [[0.63, 0.34], [0.31, 0.595], [0.155, 0.07]];
-/// Of the first colour television.
+/// Primaries of the first colour television.
 const NTSC: Primaries = [[0.67, 0.33], [0.21, 0.71], [0.14, 0.08]];
-/// Of Adobe RGB.
+/// Primaries of Adobe RGB.
 const ADOBE: Primaries = [[0.64, 0.33], [0.21, 0.71], [0.15, 0.06]];
-/// Of ROMM RGB and its relatives.
+/// Primaries of ROMM RGB and its relatives.
 const ROMM: Primaries = [[0.7347, 0.2653], [0.1596, 0.8404], [0.0366, 0.0001]];
 /// AP1 of ACES.
 const AP1: Primaries = [[0.713, 0.293], [0.165, 0.83], [0.128, 0.044]];
-/// Of S-Gamut and S-Gamut3.
+/// Primaries of S-Gamut and S-Gamut3.
 const S_GAMUT3: Primaries = [[0.73, 0.28], [0.14, 0.855], [0.1, -0.05]];
 /// The axes of XYZ.
 const X_Y_Z: Primaries = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]];

@@ -75,7 +75,7 @@ fn turned(x: f64, y: f64, degrees: f64) -> (f64, f64) {
 
 /// L99, a99, b99 of CIE Lab; white is (100, 0, 0) within the digits of the coefficients, black (0, 0, 0).
 ///
-/// For L\* above −1 / `lightness_rate`, that is −63 and lower; NaN below.
+/// Defined for L\* above −1 / `lightness_rate`, that is −63 and lower; NaN below.
 pub fn din99_from_lab(lab: DVec3, formula: Din99, factors: Din99Factors) -> DVec3 {
     let c = formula.coefficients();
     let (red_green, yellow_blue) = turned(lab.y, lab.z, -c.turn_degrees);

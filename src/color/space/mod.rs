@@ -27,6 +27,7 @@ pub use lab::{lab_from_lch, lab_from_xyz, lch_from_lab, xyz_from_lab};
 pub use luv::{luv_from_xyz, uv_1976_from_xyz, xy_from_uv_1976, xyz_from_luv, xyz_from_uv_1976_y};
 pub use names::{Space, by_name, names};
 pub use osa_ucs::{osa_ucs_from_xyz, xyz_from_osa_ucs};
+pub(in crate::color) use power::OKLAB_CONES_FROM_XYZ;
 pub use power::{
     igpgtg_from_xyz, ipt_from_xyz, ipt_ragoo2021_from_xyz, oklab_from_xyz, sucs_from_xyz, xyz_from_igpgtg,
     xyz_from_ipt, xyz_from_ipt_ragoo2021, xyz_from_oklab, xyz_from_sucs,

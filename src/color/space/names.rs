@@ -1,7 +1,7 @@
 //! The spaces by name, all of one form.
 
 use super::*;
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, Result};
 use glam::DVec3;
 
 /// A colour space as a pair of functions of coordinates and the white's XYZ.
@@ -169,18 +169,15 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// A space by its name.
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] with the nearest name.
+/// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
 pub fn by_name(name: &str) -> Result<&'static Space> {
-    SPACES.iter().find(|space| space.name == name).ok_or_else(|| {
-        let known = names().collect::<Vec<_>>().join(", ");
-        let message = format!("unknown colour space {name:?}; expected one of {known}");
-        Error::new(ErrorKind::UnknownName, message).nearest(name, names())
-    })
+    SPACES.iter().find(|space| space.name == name).ok_or_else(|| Error::unknown_name("colour space", name, names()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ErrorKind;
     use crate::color::xyz_from_xy;
 
     #[test]

@@ -15,10 +15,14 @@ struct PowerSpace {
 }
 
 impl PowerSpace {
-    /// From matrices written in rows; XYZ to cones first.
+    /// Makes a space of its matrices, written in rows.
     fn new(cones_from_xyz: [[f64; 3]; 3], exponent: f64, opponent_from_compressed: [[f64; 3]; 3]) -> Self {
         let [cones_from_xyz, opponent_from_compressed] =
             [cones_from_xyz, opponent_from_compressed].map(|rows| DMat3::from_cols_array_2d(&rows).transpose());
+        Self::from_matrices(cones_from_xyz, exponent, opponent_from_compressed)
+    }
+
+    fn from_matrices(cones_from_xyz: DMat3, exponent: f64, opponent_from_compressed: DMat3) -> Self {
         Self {
             cones_from_xyz,
             xyz_from_cones: cones_from_xyz.inverse(),
@@ -45,20 +49,20 @@ fn signed_pow(v: DVec3, exponent: f64) -> DVec3 {
 /// Hunt-Pointer-Estevez responses normalised to D65, of IPT and sUCS.
 const HPE_D65: [[f64; 3]; 3] = [[0.4002, 0.7075, -0.0807], [-0.2280, 1.1500, 0.0612], [0.0, 0.0, 0.9184]];
 
+/// XYZ under D65 to the cone responses of Oklab \[Ottosson2020\].
+pub(in crate::color) const OKLAB_CONES_FROM_XYZ: DMat3 = DMat3::from_cols(
+    DVec3::new(0.818_933_010_1, 0.032_984_543_6, 0.048_200_301_8),
+    DVec3::new(0.361_866_742_4, 0.929_311_871_5, 0.264_366_269_1),
+    DVec3::new(-0.128_859_713_7, 0.036_145_638_7, 0.633_851_707_0),
+);
+
 static OKLAB: LazyLock<PowerSpace> = LazyLock::new(|| {
-    PowerSpace::new(
-        [
-            [0.818_933_010_1, 0.361_866_742_4, -0.128_859_713_7],
-            [0.032_984_543_6, 0.929_311_871_5, 0.036_145_638_7],
-            [0.048_200_301_8, 0.264_366_269_1, 0.633_851_707_0],
-        ],
-        1.0 / 3.0,
-        [
-            [0.210_454_255_3, 0.793_617_785_0, -0.004_072_046_8],
-            [1.977_998_495_1, -2.428_592_205_0, 0.450_593_709_9],
-            [0.025_904_037_1, 0.782_771_766_2, -0.808_675_766_0],
-        ],
-    )
+    let opponent_from_compressed = DMat3::from_cols(
+        DVec3::new(0.210_454_255_3, 1.977_998_495_1, 0.025_904_037_1),
+        DVec3::new(0.793_617_785_0, -2.428_592_205_0, 0.782_771_766_2),
+        DVec3::new(-0.004_072_046_8, 0.450_593_709_9, -0.808_675_766_0),
+    );
+    PowerSpace::from_matrices(OKLAB_CONES_FROM_XYZ, 1.0 / 3.0, opponent_from_compressed)
 });
 
 static IPT: LazyLock<PowerSpace> = LazyLock::new(|| {

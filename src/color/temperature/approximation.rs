@@ -49,11 +49,11 @@ impl Approximation {
     /// # Errors
     /// [`ErrorKind::UnknownName`] with the nearest name.
     pub fn by_name(name: &str) -> Result<Self> {
-        Self::NAMED.into_iter().find(|(known, _)| *known == name).map(|(_, value)| value).ok_or_else(|| {
-            let expected = Self::names().collect::<Vec<_>>().join(", ");
-            let message = format!("unknown method {name:?}; expected one of {expected}");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        Self::NAMED
+            .into_iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, value)| value)
+            .ok_or_else(|| Error::unknown_name("method", name, Self::names()))
     }
 
     /// The names that [`Approximation::by_name`] knows.

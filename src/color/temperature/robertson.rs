@@ -54,7 +54,7 @@ impl Line {
         Self { mired, uv: DVec2::new(u, v), direction: DVec2::new(1.0, slope).normalize() }
     }
 
-    /// How far a colour is on the hot side.
+    /// Distance of a colour from the isotherm, positive on its hot side.
     fn distance_of(&self, uv: DVec2) -> f64 {
         self.direction.perp_dot(uv - self.uv)
     }

@@ -24,6 +24,7 @@ mod power;
 
 pub use hdr::{Bt1886Display, HlgDisplay, pq_ootf, pq_ootf_inverse};
 
+use crate::color::lightness::CIE_1976_BREAK;
 use crate::{Error, ErrorKind, Result, math};
 use std::borrow::Cow;
 
@@ -222,11 +223,9 @@ impl Transfer {
     /// [`ErrorKind::UnknownName`] with the nearest name.
     pub fn by_name(name: &str) -> Result<Self> {
         let named = NAMED.into_iter().find(|(known, _)| *known == name).map(|(_, transfer)| transfer);
-        named.or_else(|| gamma_by_name(name)).ok_or_else(|| {
-            let known = Self::names().collect::<Vec<_>>().join(", ");
-            let message = format!("unknown transfer function {name:?}; expected one of {known}, or gamma-X");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        named
+            .or_else(|| gamma_by_name(name))
+            .ok_or_else(|| Error::unknown_name("transfer function", name, Self::names().chain(["gamma-X"])))
     }
 
     /// A name that [`Transfer::by_name`] finds it by.
@@ -342,12 +341,11 @@ fn gamma_by_name(name: &str) -> Option<Transfer> {
     (exponent > 0.0 && exponent.is_finite()).then_some(Transfer::Gamma(exponent))
 }
 
-/// Slope of CIE lightness near black, over 100, and the luminance up to which it is straight \[CIE15\].
+/// Slope of CIE lightness near black, over 100 \[CIE15\].
 const LIGHTNESS_SLOPE: f64 = 24_389.0 / 2700.0;
-const LIGHTNESS_CUT: f64 = 216.0 / 24_389.0;
 
 fn lightness_encode(linear: f64) -> f64 {
-    if linear <= LIGHTNESS_CUT { LIGHTNESS_SLOPE * linear } else { 1.16 * math::cbrt(linear) - 0.16 }
+    if linear <= CIE_1976_BREAK { LIGHTNESS_SLOPE * linear } else { 1.16 * math::cbrt(linear) - 0.16 }
 }
 
 fn lightness_decode(encoded: f64) -> f64 {

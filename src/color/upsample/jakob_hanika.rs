@@ -63,7 +63,7 @@ impl SigmoidPolynomial {
         (residual.abs().max_element() <= COLOR_TOLERANCE * scale).then(|| Self::from_centered(at))
     }
 
-    /// From the polynomial in t = (λ − middle) / half.
+    /// Makes the spectrum of the polynomial in t = (λ − middle) / half.
     fn from_centered(c: DVec3) -> Self {
         let (a, b) = (c.x / (HALF_NM * HALF_NM), c.y / HALF_NM);
         Self { coefficients: [a, b - 2.0 * a * MIDDLE_NM, (a * MIDDLE_NM - b) * MIDDLE_NM + c.z] }
@@ -75,7 +75,7 @@ impl SigmoidPolynomial {
         sigmoid((a * lambda_nm + b) * lambda_nm + c)
     }
 
-    /// As a table with knots 1 nm apart.
+    /// Tabulates the spectrum with knots 1 nm apart.
     pub fn to_spectrum(&self) -> Spectrum {
         spectrum_of(knots_nm().into_iter().map(|lambda| self.eval(lambda)).collect())
     }
@@ -122,7 +122,7 @@ fn linearize(rgb: DVec3, c: DVec3) -> (DVec3, [DVec3; 3]) {
 pub struct CoefficientTable {
     /// Largest components of the table's layers, ascending from 0 to 1.
     scale: Vec<f32>,
-    /// By block, layer, row and column.
+    /// Coefficients by block, layer, row and column.
     coefficients: Vec<[f32; 3]>,
 }
 

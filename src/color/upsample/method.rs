@@ -1,6 +1,6 @@
 //! The methods by name.
 
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, Result};
 
 /// A way from RGB to a reflectance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -58,19 +58,19 @@ impl Method {
     /// A method by its name.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the nearest name.
+    /// [`UnknownName`](crate::ErrorKind::UnknownName) with the nearest name.
     pub fn by_name(name: &str) -> Result<Self> {
-        Self::ALL.into_iter().find(|method| method.name() == name).ok_or_else(|| {
-            let known = Self::names().collect::<Vec<_>>().join(", ");
-            let message = format!("unknown method of upsampling {name:?}; expected one of {known}");
-            Error::new(ErrorKind::UnknownName, message).nearest(name, Self::names())
-        })
+        Self::ALL
+            .into_iter()
+            .find(|method| method.name() == name)
+            .ok_or_else(|| Error::unknown_name("method of upsampling", name, Self::names()))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ErrorKind;
 
     #[test]
     fn names_lead_back() {

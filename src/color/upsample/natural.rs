@@ -26,7 +26,7 @@ const CURVES: usize = 12;
 const LENGTH: f64 = 60.0;
 /// Chroma within which colours count as nearly grey, units of CIE Lab.
 const GREY_WIDTH: f64 = 10.0;
-/// How far an anchor reaches, units of CIE Lab.
+/// Reach of an anchor in units of CIE Lab.
 const ANCHOR_REACH: f64 = 40.0;
 /// Values of anchors are kept this far from 0 and 1, where no logit is finite.
 const ANCHOR_MARGIN: f64 = 1e-6;

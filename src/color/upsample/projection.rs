@@ -23,7 +23,7 @@ const BISECTIONS: usize = 50;
 pub struct Projected {
     /// The reflectance, in [0, 1].
     pub spectrum: Spectrum,
-    /// Its colour under D65: linear RGB of the space that was asked for.
+    /// Colour of the reflectance under D65: linear RGB of the space that was asked for.
     pub rgb: [f64; 3],
     /// What is left of the colour's distance from the grey of its luminance, in [0, 1]; 1 if nothing had to change.
     pub saturation: f64,

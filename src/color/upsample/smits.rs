@@ -35,7 +35,7 @@ pub(super) fn linear(rgb: DVec3) -> Spectrum {
     Spectrum::PiecewiseLinear(PiecewiseLinear::from_valid_knots(knots, values))
 }
 
-/// As much white as the smallest component, then the secondary colour of the others, then the primary of the largest.
+/// Adds as much white as the smallest component, then the secondary colour of the others, then the primary of the largest.
 fn mixture(rgb: DVec3) -> Vec<f64> {
     let components = rgb.to_array();
     let mut order = [0, 1, 2];

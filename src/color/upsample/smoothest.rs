@@ -226,7 +226,7 @@ impl Iterate {
         })
     }
 
-    /// How far it is from the optimality conditions: norm of the gradient plus colour error.
+    /// Distance from the optimality conditions: norm of the gradient plus colour error.
     fn optimality(&self) -> f64 {
         self.gradient().map(|g| g * g).sum::<f64>().sqrt() + self.color_error()
     }

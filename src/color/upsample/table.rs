@@ -16,6 +16,7 @@ use crate::color::RgbSpace;
 use crate::math;
 use crate::spectrum::LAMBDA_MIN_NM;
 use glam::{DMat3, DVec3};
+#[cfg(feature = "render")]
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
@@ -48,9 +49,9 @@ const GROUPS: usize = KNOTS.div_ceil(LANES);
 
 /// The curves, and the weights of colour, at the knots.
 struct Basis {
-    /// By knot.
+    /// Curves by knot.
     curves: Vec<[f32; TERMS]>,
-    /// By group of knots.
+    /// Curves and weights by group of knots.
     groups: Vec<Group>,
 }
 
@@ -233,13 +234,13 @@ impl Coefficients {
     }
 }
 
-/// From colours of one RGB space to coefficients.
+/// A table from colours of one RGB space to coefficients.
 pub struct Table {
-    /// By lightness, saturation and hue; the logit of the luminance is left out.
+    /// Coefficients by lightness, saturation and hue; the logit of the luminance is left out.
     nodes: Vec<[f32; TERMS]>,
     /// RGB of the space to that of the sRGB primaries.
     rgb_from_space: DMat3,
-    /// And back.
+    /// RGB of the sRGB primaries to that of the space.
     space_from_rgb: DMat3,
 }
 
@@ -257,7 +258,10 @@ impl Table {
         let mut table = Self { nodes: Vec::new(), rgb_from_space, space_from_rgb };
         let [lightness, saturation, hue] = NODES;
         let count = lightness * saturation * hue;
-        table.nodes = (0..count).into_par_iter().map(|i| table.node(Node::of_index(i))).collect();
+        let nodes = 0..count;
+        #[cfg(feature = "render")]
+        let nodes = nodes.into_par_iter();
+        table.nodes = nodes.map(|i| table.node(Node::of_index(i))).collect();
         table
     }
 
@@ -338,11 +342,11 @@ fn stencil(position: f64, intervals: usize, blocks: usize) -> (usize, [f64; 4]) 
 /// A place in the table. All coordinates are continuous in RGB.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Node {
-    /// In [0, 1], ½ where the largest and the smallest component add up to 1; dense at both ends and in the middle.
+    /// Lightness in [0, 1], ½ where the largest and the smallest component add up to 1; dense at both ends and in the middle.
     lightness: f64,
-    /// In [0, 1], 1 at the surface of the cube; dense there.
+    /// Saturation in [0, 1], 1 at the surface of the cube; dense there.
     saturation: f64,
-    /// In [0, 6): red, yellow, green, cyan, blue and magenta at whole numbers, dense around them.
+    /// Hue in [0, 6): red, yellow, green, cyan, blue and magenta at whole numbers, dense around them.
     hue: f64,
 }
 
@@ -389,7 +393,7 @@ impl Node {
     }
 }
 
-/// From [0, 1] to itself, steep at both ends: √x / (√x + √(1 − x)).
+/// Maps [0, 1] to itself, steep at both ends: √x / (√x + √(1 − x)).
 fn flattened(x: f64) -> f64 {
     let (a, b) = (x.clamp(0.0, 1.0).sqrt(), (1.0 - x).clamp(0.0, 1.0).sqrt());
     a / (a + b)

@@ -34,12 +34,12 @@ pub(super) struct Target {
     pub(super) rgb_from_xyz: DMat3,
     /// RGB of a spectrum that is 1 at one knot and 0 at all others, linear between.
     pub(super) weights: Vec<DVec3>,
-    /// The same for spectra that are linear between coarse knots.
+    /// `weights` for spectra that are linear between coarse knots.
     pub(super) coarse_weights: Vec<DVec3>,
 }
 
 impl Target {
-    /// From the white and the XYZ of a spectrum that is 1 at one knot.
+    /// Makes a target of the white and the XYZ of a spectrum that is 1 at one knot.
     pub(super) fn new(white: DVec3, xyz_weights: Vec<DVec3>) -> Self {
         let srgb = RgbSpace::srgb();
         let xyz_from_rgb = bradford(srgb.white_xyz(), white) * srgb.xyz_from_rgb;

@@ -73,7 +73,7 @@ pub fn choose(parts: &[Header], preference: Preference, layer: Option<&str>) -> 
             None => part_name(part).unwrap_or_else(|| format!("(part {part} without a name)")),
         };
         let names: Vec<String> = places.iter().map(name).collect();
-        let message = format!("several pictures: {}; expected --layer with one of them", names.join(", "));
+        let message = format!("several pictures: {}; expected one of them to be asked for", names.join(", "));
         return Err(Error::new(ErrorKind::Usage, message));
     }
     all.into_iter().min_by_key(|c| c.rank(preference)).ok_or_else(|| nothing(parts, layer))

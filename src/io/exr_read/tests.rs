@@ -120,7 +120,7 @@ fn layers_and_parts() {
     assert_eq!(decode(&bytes, Preference::Xyz, Some("N")).unwrap().source, Source::Xyz);
 
     let bytes = file(vec![part("p", (2, 1), &[&one[..], &two].concat())]);
-    assert!(message(decode(&bytes, Preference::Xyz, None)).contains("a.Combined, a.Diffuse; expected --layer"));
+    assert!(message(decode(&bytes, Preference::Xyz, None)).contains("a.Combined, a.Diffuse; expected one of them"));
     assert!(decode(&bytes, Preference::Xyz, Some("a.Diffuse")).is_ok());
 
     let bytes = file(vec![part("left", (2, 1), &RGB), part("right", (2, 1), &RGB), part("depth", (2, 1), &normal)]);

@@ -95,7 +95,7 @@ fn negative_values(table: &PiecewiseLinear) -> Option<Finding> {
 fn above_one(table: &PiecewiseLinear) -> Option<Finding> {
     let (lambda, highest) = table.knots().max_by(|a, b| a.1.total_cmp(&b.1)).filter(|&(_, value)| value > 1.0)?;
     if highest > PERCENT_FROM {
-        let message = format!("values up to {highest} (at {lambda} nm) look like percent; use --percent if they are");
+        let message = format!("values up to {highest} (at {lambda} nm) look like percent");
         return Some(Finding { name: "looks_like_percent", message });
     }
     let message = format!("values up to {highest} (at {lambda} nm): more light leaves than arrives; they are kept");

@@ -4,14 +4,14 @@ use super::named;
 use crate::Result;
 use crate::spectrum::PiecewiseLinear;
 
-/// What lies beyond the first and the last sample.
+/// Values that are taken beyond the first and the last sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extrapolation {
     /// The value of the nearest sample.
     Constant,
     /// The line through the two nearest samples.
     Linear,
-    /// Nothing.
+    /// The value 0.
     Zero,
 }
 

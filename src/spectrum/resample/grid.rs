@@ -17,7 +17,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// From the first to the last wavelength in nm, with a step in nm.
+    /// Makes a grid from the first to the last wavelength in nm, with a step in nm.
     ///
     /// # Errors
     /// Ends that are not positive, finite and ascending (or equal); a step that is not positive, does not lead from one

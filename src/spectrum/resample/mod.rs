@@ -104,12 +104,10 @@ fn ends(samples: &PiecewiseLinear) -> (f64, f64) {
 
 /// An entry of a list by its name.
 fn named<T: Copy>(list: &[(&'static str, T)], what: &str, name: &str) -> Result<T> {
-    list.iter().find(|(known, _)| *known == name).map(|(_, value)| *value).ok_or_else(|| {
-        let names = list.iter().map(|(known, _)| *known);
-        let expected = names.clone().collect::<Vec<_>>().join(", ");
-        let message = format!("unknown {what} {name:?}; expected one of {expected}");
-        Error::new(ErrorKind::UnknownName, message).nearest(name, names)
-    })
+    list.iter()
+        .find(|(known, _)| *known == name)
+        .map(|(_, value)| *value)
+        .ok_or_else(|| Error::unknown_name(what, name, list.iter().map(|(known, _)| *known)))
 }
 
 /// An error about the number of samples.

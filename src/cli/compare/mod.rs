@@ -2,7 +2,8 @@
 
 mod report;
 
-use super::{heat, write_data};
+use super::values::exposure;
+use super::{heat, usage, write_data};
 use crate::color::RgbSpace;
 use crate::develop::{self, Picture};
 use crate::io::exr_read::{self, Preference, ReadPicture};
@@ -118,10 +119,6 @@ pub fn run(args: &CompareArgs) -> Result<ExitCode> {
     Ok(if exceeded.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(super::OVER_THRESHOLD) })
 }
 
-fn usage(message: impl Into<String>) -> Error {
-    Error::new(ErrorKind::Usage, message)
-}
-
 fn is_stdin(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
@@ -139,9 +136,18 @@ fn extension(path: &Path) -> Option<String> {
 }
 
 fn read(path: &Path, preference: Preference, layer: Option<&str>) -> Result<ReadPicture> {
-    if !is_stdin(path) {
-        return exr_read::read_file(path, preference, layer);
-    }
+    let read = match is_stdin(path) {
+        true => read_stdin(preference, layer),
+        false => exr_read::read_file(path, preference, layer),
+    };
+    read.map_err(|error| match error.kind {
+        // A file of several pictures, which the message lists.
+        ErrorKind::Usage => Error { message: format!("{}, with --layer", error.message), ..error },
+        _ => error,
+    })
+}
+
+fn read_stdin(preference: Preference, layer: Option<&str>) -> Result<ReadPicture> {
     let mut bytes = Vec::new();
     let failed = |e: std::io::Error| Error::new(ErrorKind::Io, format!("reading stdin failed: {e}"));
     std::io::stdin().lock().read_to_end(&mut bytes).map_err(failed)?;
@@ -163,7 +169,7 @@ fn compare(args: &CompareArgs, test: &ReadPicture, reference: &ReadPicture) -> R
     let (test_values, reference_values) = (values(&scaled), values(&reference.xyz));
     let pair = Pair::new(width, &test_values, &reference_values, mask.as_deref())?;
 
-    let exposure_ev = exposure(&args.exposure, &reference.xyz)?;
+    let exposure_ev = exposure(&args.exposure)?.unwrap_or_else(|| develop::automatic_exposure(&reference.xyz));
     let factor = math::exp(exposure_ev * std::f64::consts::LN_2);
     let shown = [&scaled, &reference.xyz].map(|xyz| Displayed::new(xyz, factor));
     if !(args.pixels_per_degree > 0.0 && args.pixels_per_degree <= 1000.0) {
@@ -243,14 +249,6 @@ fn scale(
         return Err(Error::new(ErrorKind::OutOfRange, message));
     }
     Ok(pair.mean() / test_mean)
-}
-
-fn exposure(text: &str, reference: &[Pixel]) -> Result<f64> {
-    if text == "auto" {
-        return Ok(develop::automatic_exposure(reference));
-    }
-    let stops: Option<f64> = text.parse().ok().filter(|ev: &f64| ev.abs() <= 200.0);
-    stops.ok_or_else(|| usage(format!("--exposure {text}: expected stops in [-200, 200], or auto")))
 }
 
 impl Maps {

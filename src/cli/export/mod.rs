@@ -22,7 +22,7 @@ pub struct ExportArgs {
     /// Scene file
     #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
-    /// For which renderer
+    /// Renderer to write for
     #[arg(long, value_enum)]
     pub format: Format,
     /// File to write; meshes are put beside it

@@ -42,7 +42,7 @@ pub const FRAUNHOFER_LINES: [(&str, f64); 13] = [
 /// An index of refraction relative to the surrounding air: constant, by formula, or measured.
 #[derive(Debug, Clone, PartialEq)]
 pub enum IndexOfRefraction {
-    /// The same at every wavelength.
+    /// An index that is the same at every wavelength.
     Constant(f64),
     /// A dispersion formula with its range of validity.
     Formula(Formula),
@@ -85,7 +85,7 @@ pub enum Extrapolation {
 const EVERYWHERE: [f64; 2] = [0.0, f64::INFINITY];
 
 impl IndexOfRefraction {
-    /// The same index at every wavelength; in (0, [`MAX_INDEX`]], below 1 for a bubble in something denser.
+    /// Makes an index that is the same at every wavelength; in (0, [`MAX_INDEX`]], below 1 for a bubble in something denser.
     ///
     /// # Errors
     /// `NotFinite`, `OutOfRange`.
