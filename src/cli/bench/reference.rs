@@ -124,7 +124,7 @@ fn relative_to(reference: &Image, variance: &Image, work: &Work, mask: Option<&[
 pub fn get(session: &Session, work: &Work, mask: Option<&[bool]>) -> Result<Reference> {
     let (integrator, why) = match session.args.reference.as_deref() {
         Some(name) if is_file(name) => return from_file(work, Path::new(name)),
-        Some(name) => (named("--reference", name, &INTEGRATORS)?, "as asked for"),
+        Some(name) => (named("--reference", name, INTEGRATORS)?, "as asked for"),
         None => least_alike(session, work),
     };
     let path = path_for(session, work, integrator);

@@ -88,7 +88,7 @@ fn with(variant: &Variant, key: &str, value: &str) -> Result<Variant> {
     let mut kind = variant.kind.clone();
     let Kind::Abbe { integrator, max_depth, adaptive } = &mut kind else { return Ok(variant.clone()) };
     match key {
-        "integrator" => *integrator = Some(named("--vary integrator", value, &INTEGRATORS)?),
+        "integrator" => *integrator = Some(named("--vary integrator", value, INTEGRATORS)?),
         "max-depth" => {
             let depth = value.parse().ok().filter(|d| (1..=1 << 20).contains(d));
             *max_depth =

@@ -41,7 +41,7 @@ pub struct RenderArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH")]
     pub resolution: Option<String>,
-    #[arg(long, value_name = "NAME", help = format!("Integrator: {}", listed(&INTEGRATORS)))]
+    #[arg(long, value_name = "NAME", help = format!("Integrator: {}", listed(INTEGRATORS)))]
     pub integrator: Option<String>,
     /// Observer whose XYZ is recorded: 1931-2, 1964-10, 2015-2 or 2015-10
     #[arg(long, value_name = "NAME")]
@@ -49,7 +49,7 @@ pub struct RenderArgs {
     /// Exposure of PNGs in stops, or auto
     #[arg(long, value_name = "EV", allow_negative_numbers = true)]
     pub exposure: Option<String>,
-    #[arg(long, value_name = "OP", help = format!("Tone mapping of PNGs: {}", listed(&TONEMAPS)))]
+    #[arg(long, value_name = "OP", help = format!("Tone mapping of PNGs: {}", listed(TONEMAPS)))]
     pub tonemap: Option<String>,
     /// Stop after this time, reading the scene included
     #[arg(long, value_name = "SECONDS")]
@@ -94,7 +94,7 @@ pub fn run(args: &RenderArgs) -> Result<ExitCode> {
     let (mut description, mut warnings) = read(&args.scene)?;
     override_settings(&mut description, args)?;
     let develop = develop_settings(&description, args)?;
-    let integrator = args.integrator.as_ref().map(|name| named("--integrator", name, &INTEGRATORS)).transpose()?;
+    let integrator = args.integrator.as_ref().map(|name| named("--integrator", name, INTEGRATORS)).transpose()?;
     check_memory(&description)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.map_or(0, usize::from))
@@ -235,7 +235,7 @@ fn override_settings(description: &mut SceneDescription, args: &RenderArgs) -> R
 fn develop_settings(description: &SceneDescription, args: &RenderArgs) -> Result<DevelopSettings> {
     let mut settings = DevelopSettings::from(&description.develop);
     if let Some(name) = &args.tonemap {
-        settings.tonemap = named("--tonemap", name, &TONEMAPS)?;
+        settings.tonemap = named("--tonemap", name, TONEMAPS)?;
     }
     if let Some(text) = &args.exposure {
         settings.exposure_ev = exposure(text)?;
