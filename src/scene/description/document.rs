@@ -73,8 +73,10 @@ pub const SCENE: Record<SceneDescription> =
 const OBJECT: Record<ObjectDescription> = Record { what: "an object", doc: "A shape with its material.", read: object };
 
 /// Spectra by name. Spectra may refer to each other, so they are looked at together once all are read.
-const SPECTRA: Checked<Map<Spectrum>> =
-    Checked { codec: Map { what: "a spectrum", item: Spectrum(Role::Named) }, check: resolve };
+const SPECTRA: Checked<Map<Spectrum>> = Checked {
+    codec: Map { what: "a spectrum", item: Spectrum(Role::Named) },
+    check: |value, named| resolve(value, named),
+};
 
 /// Materials by name.
 const MATERIALS: Checked<Map<Record<MaterialDescription>>> = Checked {

@@ -7,7 +7,7 @@ use super::text::quote;
 use crate::{Error, ErrorKind, Result};
 
 /// Follows the references between named spectra, refuses cycles, and finds what each spans.
-pub fn resolve(value: &Value, named: &Vec<(String, SpectrumDescription)>) -> Result<()> {
+pub fn resolve(value: &Value, named: &[(String, SpectrumDescription)]) -> Result<()> {
     const UNSEEN: usize = usize::MAX;
     const DONE: usize = usize::MAX - 1;
     let Context { spectra, extents, .. } = value.context;
