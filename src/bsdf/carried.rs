@@ -96,7 +96,7 @@ impl Carried {
     }
 
     /// Whether both parts of a path are followed, of which one is the share `reflected` of its flux.
-    pub fn forks(&self, reflected: f32) -> bool {
+    pub(crate) fn forks(&self, reflected: f32) -> bool {
         self.least_share < NEVER && self.share() * reflected.min(1.0 - reflected) >= self.least_share
     }
 

@@ -141,7 +141,7 @@ impl Dielectric {
     }
 
     /// The same in f64.
-    pub fn refracted_exactly(&self, incidence: &Incidence, lane: usize) -> Option<DVec3> {
+    pub(crate) fn refracted_exactly(&self, incidence: &Incidence, lane: usize) -> Option<DVec3> {
         let (from, to) = (self.from.eta[lane], self.to.eta[lane]);
         let Incidence { direction, normal, cos_theta } = *incidence;
         let refraction = optics::refract(cos_theta, from, to)?;

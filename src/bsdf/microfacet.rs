@@ -51,7 +51,8 @@ impl Ggx {
 
     /// Density per solid angle of the facets' normals `m` as they are seen from `wo`: G₁ (wo·m) D / (wo·n). What
     /// [`Self::sample_visible`] draws.
-    pub fn visible_density(&self, normal: DVec3, wo: DVec3, m: DVec3) -> f64 {
+    #[cfg(test)]
+    fn visible_density(&self, normal: DVec3, wo: DVec3, m: DVec3) -> f64 {
         let cos = wo.dot(normal);
         wo.dot(m).max(0.0) * self.density(normal, m) / ((1.0 + self.lambda(cos)) * cos)
     }
@@ -59,7 +60,7 @@ impl Ggx {
     /// Draws the normal of a facet that is seen from the unit `wo`, which is on the side of the unit `normal`: with the
     /// slopes stretched the facets are a hemisphere, of which a shifted cap of the sphere gives the halfway vectors
     /// \[DupuyBenyoub2023\].
-    pub fn sample_visible(&self, normal: DVec3, wo: DVec3, u: [f32; 2]) -> DVec3 {
+    pub(crate) fn sample_visible(&self, normal: DVec3, wo: DVec3, u: [f32; 2]) -> DVec3 {
         let (s, t) = normal.any_orthonormal_pair();
         let view = DVec3::new(self.alpha * wo.dot(s), self.alpha * wo.dot(t), wo.dot(normal)).normalize();
         let phi = TAU * f64::from(u[0]);
@@ -74,7 +75,7 @@ impl Ggx {
 /// Share of the facets seen from a direction with `lambda_o` that is also lit along one with `lambda_i`: G₂ / G₁(wo) of
 /// Smith with correlated heights. Reflected light climbs from where it has come down, 1 / (1 + Λₒ + Λᵢ); refracted light
 /// leaves on the other side, where what is high is deep: Euler's B(1 + Λₒ, 1 + Λᵢ) \[Heitz2014\].
-pub fn lit_of_visible(lambda_o: f64, lambda_i: f64, crosses: bool) -> f64 {
+pub(crate) fn lit_of_visible(lambda_o: f64, lambda_i: f64, crosses: bool) -> f64 {
     let (a, b) = (1.0 + lambda_o, 1.0 + lambda_i);
     if crosses {
         // Γ(a) Γ(b) / Γ(a + b) · a

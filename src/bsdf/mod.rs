@@ -17,7 +17,7 @@ pub use carried::{BASELINE_LANES, Branching, Carried, Lanes, NEVER, Parting, lan
 pub use conductor::Conductor;
 pub use dielectric::{Dielectric, DielectricChoice, Division, Incidence, Indices};
 pub use diffuse::Diffuse;
-pub use microfacet::{Ggx, lit_of_visible};
+pub use microfacet::Ggx;
 pub use mirror::Mirror;
 pub use rough_conductor::RoughConductor;
 pub use rough_dielectric::{Lobe, RoughDielectric};

@@ -118,7 +118,7 @@ impl RoughDielectric {
 
     /// The density by which a lane's sample of this direction is balanced against other techniques: that of the mixture
     /// where lanes stay together, the lane's own where they part.
-    pub fn balance_pdf(&self, lobe: &Lobe) -> SampledSpectrum {
+    pub(crate) fn balance_pdf(&self, lobe: &Lobe) -> SampledSpectrum {
         match self.lanes {
             Lanes::Shared if !(self.parts && lobe.crosses) => SampledSpectrum::splat(self.mixture(&lobe.own_pdf)),
             _ => lobe.own_pdf,

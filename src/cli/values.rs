@@ -2,11 +2,7 @@
 
 use super::usage;
 use crate::Result;
-
-/// Most pixels along a side.
-const MAX_SIDE: u32 = 1 << 20;
-/// Most pixels.
-const MAX_PIXELS: u64 = 1 << 32;
+use crate::scene::description::{EXPOSURES_EV, MAX_PIXELS, MAX_SIDE};
 
 /// Parses `--resolution WIDTHxHEIGHT`.
 pub fn resolution(text: &str) -> Result<(u32, u32)> {
@@ -21,6 +17,7 @@ pub fn exposure(text: &str) -> Result<Option<f64>> {
     if text == "auto" {
         return Ok(None);
     }
-    let stops = text.parse().ok().filter(|stops: &f64| stops.abs() <= 200.0);
-    stops.map(Some).ok_or_else(|| usage(format!("--exposure {text}: expected stops in [-200, 200], or auto")))
+    let (low, high) = EXPOSURES_EV;
+    let stops = text.parse::<f64>().ok().filter(|stops| (low..=high).contains(stops));
+    stops.map(Some).ok_or_else(|| usage(format!("--exposure {text}: expected stops in [{low}, {high}], or auto")))
 }

@@ -70,7 +70,7 @@ impl Filter {
 
     /// Sum of the squares of the correlations of a pixel's noise with that of all pixels, where samples are spread evenly and
     /// count in all pixels that they reach: 1 if only in their own.
-    pub fn correlation(&self) -> f64 {
+    pub(crate) fn correlation(&self) -> f64 {
         let steps = 64 * KNOTS;
         let offset = |i: u32| self.radius * (2.0 * (f64::from(i) + 0.5) / f64::from(steps) - 1.0) as f32;
         let weight = |offset: f32| if offset.abs() <= self.radius { f64::from(self.weight(offset)) } else { 0.0 };

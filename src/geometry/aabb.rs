@@ -26,7 +26,7 @@ impl Aabb {
     }
 
     /// This box grown to hold a point.
-    pub fn with_point(self, point: Vec3) -> Self {
+    pub(crate) fn with_point(self, point: Vec3) -> Self {
         Self { min: self.min.min(point), max: self.max.max(point) }
     }
 

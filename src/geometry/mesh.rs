@@ -26,7 +26,7 @@ fn position_key(position: DVec3) -> [u64; 3] {
 
 impl Mesh {
     /// For each vertex, the first vertex at exactly the same position.
-    pub fn first_at_same_position(&self) -> Vec<u32> {
+    pub(crate) fn first_at_same_position(&self) -> Vec<u32> {
         let mut first = HashMap::with_capacity(self.positions.len());
         self.positions
             .iter()

@@ -22,7 +22,7 @@ pub struct Camera {
 
 /// How a point is seen by the camera.
 #[derive(Debug, Clone, Copy)]
-pub struct Connection {
+pub(crate) struct Connection {
     /// Position on the film, in pixels from the top left corner.
     pub film: [f32; 2],
     /// The point on the lens.
@@ -47,7 +47,7 @@ impl Camera {
 
     /// Where a point appears through a point of the lens in [0, 1)²; `None` behind the camera or off the film by more
     /// than `margin` pixels.
-    pub fn connect(&self, point: Vec3, lens: [f32; 2], margin: f32) -> Option<Connection> {
+    pub(crate) fn connect(&self, point: Vec3, lens: [f32; 2], margin: f32) -> Option<Connection> {
         let [u, v] = self.lens_point(lens);
         let position = self.lens_position([u, v]);
         let to_point = point - position;

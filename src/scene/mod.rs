@@ -11,7 +11,7 @@ mod material;
 mod solid;
 mod surface;
 
-pub use camera::{Camera, Connection};
+pub use camera::Camera;
 pub use compile::{Compiled, FilmSettings, RenderSettings, compile, world_mesh};
 pub use features::SceneFeatures;
 pub use integrator::Integrator;

@@ -59,7 +59,7 @@ const RULES: &[(&str, &[Grant])] = &[
         &[
             Module("bsdf"),
             Module("color"),
-            Items("film", &["Filter"]),
+            Items("film", &["Filter", "Sensor"]),
             Module("geometry"),
             Module("io"),
             Module("optics"),

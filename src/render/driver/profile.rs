@@ -41,7 +41,7 @@ pub struct Profile {
 
 impl Profile {
     /// Books some work.
-    pub fn book(&mut self, phase: Phase, time: Duration, rays: u64) {
+    pub(crate) fn book(&mut self, phase: Phase, time: Duration, rays: u64) {
         self.phases[phase as usize] += time;
         self.rays[phase as usize] += rays;
     }

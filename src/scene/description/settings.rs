@@ -12,7 +12,7 @@ const MAX_SAMPLES: i64 = 1 << 40;
 const MAX_SEED: i64 = 1 << 53;
 
 /// Exposures that are allowed, stops.
-pub const EXPOSURES_EV: (f64, f64) = (-200.0, 200.0);
+pub(crate) const EXPOSURES_EV: (f64, f64) = (-200.0, 200.0);
 
 /// Sampling options.
 #[derive(Debug, Clone, PartialEq)]

@@ -80,7 +80,7 @@ impl LightKind {
 
 impl Light {
     /// Whether next-event estimation can draw a direction towards it.
-    pub fn is_sampled(&self) -> bool {
+    pub(crate) fn is_sampled(&self) -> bool {
         for_kind!(&self.kind, light => light.is_sampled())
     }
 
@@ -91,7 +91,7 @@ impl Light {
     }
 
     /// Whether light paths can start from it.
-    pub fn can_emit(&self) -> bool {
+    pub(crate) fn can_emit(&self) -> bool {
         for_kind!(&self.kind, light => light.can_emit())
     }
 
@@ -106,12 +106,12 @@ impl Light {
     }
 
     /// Rough share of its power that light paths send to what they are aimed at.
-    pub fn aimed_share(&self, bounds: Option<Aabb>, aim: &Aim, scene_radius: f32) -> f64 {
+    pub(crate) fn aimed_share(&self, bounds: Option<Aabb>, aim: &Aim, scene_radius: f32) -> f64 {
         f64::from(for_kind!(&self.kind, light => light.aimed_share(bounds, aim, scene_radius)).min(1.0))
     }
 
     /// Whether it makes caustics, by way of what is aimed at, that camera paths hardly find.
-    pub fn makes_caustics(&self, bounds: Option<Aabb>, aim: &Aim) -> bool {
+    pub(crate) fn makes_caustics(&self, bounds: Option<Aabb>, aim: &Aim) -> bool {
         for_kind!(&self.kind, light => light.makes_caustics(bounds, aim))
     }
 

@@ -185,7 +185,7 @@ impl<'a> Object<'a> {
     }
 
     /// The kind of object that the value of `tag` tells.
-    pub fn tagged<T>(&mut self, tag: &'static str, variants: &[Variant<T>]) -> Result<T> {
+    pub(crate) fn tagged<T>(&mut self, tag: &'static str, variants: &[Variant<T>]) -> Result<T> {
         let Some(reading) = &mut self.file else {
             self.table.tag = Some(tag);
             return Ok(self.describe_variants(variants));
@@ -205,7 +205,7 @@ impl<'a> Object<'a> {
     }
 
     /// The kind of object that its first key tells. Keys that all kinds have are asked for before.
-    pub fn form<T>(&mut self, variants: &[Variant<T>]) -> Result<T> {
+    pub(crate) fn form<T>(&mut self, variants: &[Variant<T>]) -> Result<T> {
         let Some(reading) = &self.file else { return Ok(self.describe_variants(variants)) };
         let variant = chosen_form(self.what, reading, variants)?;
         self.what = variant.what;
@@ -220,7 +220,7 @@ impl<'a> Object<'a> {
     }
 
     /// One set of keys out of several; `read` asks for the keys of the set whose index it gets.
-    pub fn one_of<T>(
+    pub(crate) fn one_of<T>(
         &mut self,
         sets: &'static [&'static [&'static str]],
         read: impl Fn(&mut Self, usize) -> Result<T>,
@@ -246,7 +246,7 @@ impl<'a> Object<'a> {
     }
 
     /// Demands that at least one of these sets of keys is complete.
-    pub fn any_of(&mut self, sets: &'static [&'static [&'static str]]) {
+    pub(crate) fn any_of(&mut self, sets: &'static [&'static [&'static str]]) {
         self.table.rule = Rule::AnyOf(sets);
         if let Some(reading) = &mut self.file {
             let complete = |set: &&[&str]| set.iter().all(|key| reading.get(key).is_some());
@@ -270,7 +270,13 @@ impl<'a> Object<'a> {
     }
 
     /// Fails with a message at `key`, or at the object itself if that is empty, when `wrong` holds.
-    pub fn refuse_if(&self, wrong: bool, kind: ErrorKind, key: &str, message: impl FnOnce() -> String) -> Result<()> {
+    pub(crate) fn refuse_if(
+        &self,
+        wrong: bool,
+        kind: ErrorKind,
+        key: &str,
+        message: impl FnOnce() -> String,
+    ) -> Result<()> {
         self.check(|value| match (wrong, key) {
             (false, _) => Ok(()),
             (true, "") => Err(value.error(kind, message())),
