@@ -1,6 +1,6 @@
 //! Passes of merging: each traces its photons and looks for them along one camera path a pixel.
 
-use super::passes::{tile_pixels, tiles};
+use super::passes::{CameraStart, tile_pixels, tiles};
 use super::renderer::Renderer;
 use super::streams::{Stream, render_seed};
 use crate::bsdf::{Branching, Indices, Parting};
@@ -181,7 +181,8 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
         let place = Place { sobol, index: pass };
         let u = sobol.group(pass, 0);
         let (at, offset) = (self.column_and_row(pixel), self.offset_by_filter(u));
-        let mut walk = self.camera_walk(workspace, at, offset, wavelengths, self.plan.camera, place, u);
+        let start = CameraStart { pixel: at, offset, wavelengths, u };
+        let mut walk = self.camera_walk(workspace, start, self.plan.camera, place);
         let camera_indices = if INTERIORS { Some(walk.medium_indices()) } else { None };
         let (techniques, max_depth) = (&self.plan.techniques, self.settings.max_depth);
         let mut visit = |walk: &mut Walk, vertex: &Vertex| visit(walk, vertex, &camera_indices);

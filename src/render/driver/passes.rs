@@ -140,7 +140,8 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
         let baseline = branching.parting == Parting::Terminate;
         let wavelengths = if baseline { baseline::wavelengths(u[2]) } else { self.scene.wavelengths.sample(u[2]) };
         let offset = if baseline { self.offset_by_filter(u) } else { [u[0], u[1]] };
-        let mut walk = self.camera_walk(workspace, pixel, offset, wavelengths, branching, place, u);
+        let start = CameraStart { pixel, offset, wavelengths, u };
+        let mut walk = self.camera_walk(workspace, start, branching, place);
         if baseline {
             (walk.carried.hero, walk.carried.throughput) = (0, baseline::throughput());
         }
@@ -159,12 +160,9 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
     pub fn camera_walk<'w>(
         &self,
         workspace: &'w mut Workspace,
-        [x, y]: [i32; 2],
-        offset: [f32; 2],
-        wavelengths: Wavelengths,
+        CameraStart { pixel: [x, y], offset, wavelengths, u }: CameraStart,
         branching: Branching,
         place: Place,
-        u: [f32; DIMENSIONS],
     ) -> Walk<'w>
     where
         'a: 'w,
@@ -229,6 +227,18 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
         }
         (splatter.splats, workspace.counters)
     }
+}
+
+/// Where a camera path starts.
+pub struct CameraStart {
+    /// Column and row of its pixel.
+    pub pixel: [i32; 2],
+    /// Where, from the corner of the pixel.
+    pub offset: [f32; 2],
+    /// Its wavelengths.
+    pub wavelengths: Wavelengths,
+    /// The first group of its random numbers.
+    pub u: [f32; DIMENSIONS],
 }
 
 /// What a camera path has found.
