@@ -1,4 +1,4 @@
-//! Every scene in scenes/ renders: no lost samples, no glass left that was never entered, not black.
+//! Every scene in scenes/ and every recipe renders: no lost samples, no glass left that was never entered, not black.
 
 use std::path::PathBuf;
 
@@ -7,11 +7,12 @@ use abbe::scene::compile;
 use abbe::scene::description::parse_file;
 
 fn scenes() -> Vec<PathBuf> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes");
-    let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let folders = [root.clone(), root.join("recipes")];
+    let files = folders.iter().flat_map(|folder| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()));
     let mut scenes: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|e| e == "json")).collect();
     scenes.sort();
-    assert!(scenes.len() >= 2);
+    assert!(scenes.len() >= 25);
     scenes
 }
 
