@@ -7,7 +7,7 @@ use abbe::bsdf::{
     Branching, Bsdf, Carried, Conductor, Dielectric, Diffuse, Incidence, Indices, Lanes, Mirror, NEVER, Parting,
 };
 use abbe::color::{Observer, illuminant};
-use abbe::film::{CameraTile, Film, Filter, Sensor, Splat};
+use abbe::film::{CameraTile, Film, Filter, SamplePlace, Sensor, Splats, value};
 use abbe::geometry::Frame;
 use abbe::optics::ior::IndexOfRefraction;
 use abbe::optics::{fresnel_conductor, refract};
@@ -90,7 +90,12 @@ fn spectra(criterion: &mut Criterion) {
     let observer = Observer::cie_1931_2deg();
     let matching: Vec<[f64; 3]> = nm.iter().map(|&l| observer.eval(l).to_array()).collect();
     let sensor = Sensor::new(360.0, &matching);
-    each(&mut group, "XYZ of 8 lanes", &wavelengths, |w| Sensor::xyz(&sensor.weights(w), even.sample(w)));
+    let mut weights = Vec::new();
+    each(&mut group, "XYZ of 8 lanes", &wavelengths, |w| {
+        sensor.weights(w, &mut weights);
+        let radiance = even.sample(w);
+        [0, 1, 2].map(|c| value(weights[c], radiance))
+    });
     group.finish();
 }
 
@@ -149,19 +154,20 @@ fn bsdfs(criterion: &mut Criterion) {
 fn film(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("film");
     let points = points();
+    let sensor = Sensor::of_observer(Observer::cie_1931_2deg());
+    let wavelengths = Wavelengths { lambda_nm: std::array::from_fn(|k| 400.0 + 40.0 * k as f32), pdf: [0.003; 8] };
     for (name, filter) in [("box", Filter::boxed(0.5)), ("Blackman-Harris", Filter::blackman_harris(1.5))] {
-        let mut tile = CameraTile::new([0, 0], [16, 16], filter.reach());
+        let mut tile = CameraTile::new([0, 0], [16, 16], filter.reach(), sensor.channels());
         each(&mut group, &format!("camera sample under {name}"), &points, |u| {
             let pixel = [u[5], u[6]].map(|u| (16.0 * u) as i32);
-            let xyz = [u[2], u[3], u[4]].map(f64::from);
-            tile.add(&filter, (pixel, [u[0], u[7]]), (u[1] * 2.0) as usize, (1.0, xyz));
+            let (offset, replicate) = (Some([u[0], u[7]]), (u[1] * 2.0) as usize);
+            let place = SamplePlace { pixel, offset, replicate, weight: 1.0 };
+            tile.add(&sensor, &filter, &place, &wavelengths, SampledSpectrum::splat(u[2]));
         });
     }
     let mut film = Film::new(64, 64, 1.0);
-    let splats: Vec<Splat> = points
-        .iter()
-        .map(|u| Splat { pixel: (u[0] * 4096.0) as u32, xyz: [u[2], u[3], u[4]].map(f64::from) })
-        .collect();
+    let of_point = |u: &[f32; 8]| ((u[0] * 4096.0) as u32, [u[2], u[3], u[4]].map(f64::from));
+    let splats = Splats::of(&points.iter().map(of_point).collect::<Vec<_>>());
     group.throughput(Throughput::Elements(COUNT as u64));
     group.bench_function("splats of light paths", |bencher| {
         bencher.iter(|| film.add_splats(1, 1, 1.0, black_box(&splats)));

@@ -4,7 +4,8 @@
 //! is known, and taken off at the brightness that the other replicate has found: as this is independent of it, the mean
 //! stays what it was, and where the picture is even there is no noise at all. A quotient of both sums would be biased.
 
-use super::{CAMERA_REPLICATES, CameraSums, CameraTile, Xyz};
+use super::tile::stride;
+use super::{CAMERA_REPLICATES, CameraTile, Xyz};
 use rayon::prelude::*;
 
 /// Rows of the film that tiles are added to at a time.
@@ -15,8 +16,8 @@ const BAND: usize = 16;
 /// early because it missed something does not pull the mean down.
 #[derive(Debug, Clone, PartialEq)]
 struct ClosedStages {
-    /// Sums over stages of weight times mean, by replicate.
-    sums: Vec<[Xyz; CAMERA_REPLICATES]>,
+    /// Sums over stages of weight times mean, by pixel, replicate and channel.
+    sums: Vec<f64>,
     weight: f64,
 }
 
@@ -26,9 +27,10 @@ pub type CameraSamples = [f64; CAMERA_REPLICATES];
 /// What camera samples have given so far.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CameraPart {
-    /// Sums since the last stage,
-    sums: Vec<CameraSums>,
-    /// and what to divide them by: so many samples of each pixel in each replicate.
+    channels: usize,
+    /// Sums since the last stage, see [`super::tile::stride`].
+    sums: Vec<f64>,
+    /// What to divide them by: so many samples of each pixel in each replicate.
     open_samples: CameraSamples,
     /// What the open stage counts in the mean over stages.
     open_weight: f64,
@@ -42,9 +44,10 @@ pub struct CameraPart {
 }
 
 impl CameraPart {
-    pub(super) fn new(pixels: usize) -> Self {
+    pub(super) fn new(pixels: usize, channels: usize) -> Self {
         Self {
-            sums: vec![CameraSums::default(); pixels],
+            channels,
+            sums: vec![0.0; pixels * stride(channels)],
             open_samples: CameraSamples::default(),
             open_weight: 0.0,
             closed: None,
@@ -56,9 +59,10 @@ impl CameraPart {
 
     /// Adds what camera samples gave in some tiles, in their order whatever the number of threads.
     pub(super) fn add_tiles(&mut self, width: usize, tiles: &[&CameraTile]) {
-        self.sums.par_chunks_mut(BAND * width).enumerate().for_each(|(band, pixels)| {
+        let stride = stride(self.channels);
+        self.sums.par_chunks_mut(BAND * width * stride).enumerate().for_each(|(band, sums)| {
             let first = (band * BAND) as i32;
-            let rows = first..first + (pixels.len() / width) as i32;
+            let rows = first..first + (sums.len() / (width * stride)) as i32;
             for tile in tiles {
                 let ([x, y], [tile_width, tile_height]) = (tile.corner, tile.size.map(|size| size as i32));
                 let columns = x.max(0)..(x + tile_width).min(width as i32);
@@ -66,12 +70,10 @@ impl CameraPart {
                     continue;
                 }
                 for row in rows.start.max(y)..rows.end.min(y + tile_height) {
-                    let from = ((row - y) * tile_width + columns.start - x) as usize;
-                    let to = (row - first) as usize * width + columns.start as usize;
-                    let added = &tile.sums[from..from + columns.len()];
-                    for (sums, added) in pixels[to..to + columns.len()].iter_mut().zip(added) {
-                        sums.add(added);
-                    }
+                    let from = stride * ((row - y) * tile_width + columns.start - x) as usize;
+                    let to = stride * ((row - first) as usize * width + columns.start as usize);
+                    let added = &tile.sums[from..from + stride * columns.len()];
+                    sums[to..].iter_mut().zip(added).for_each(|(sum, added)| *sum += added);
                 }
             }
         });
@@ -103,57 +105,61 @@ impl CameraPart {
 
     /// Ends a stage, which has samples in both replicates: samples from here on are another.
     pub fn close_stage(&mut self) {
-        let means: Vec<_> = (0..self.sums.len()).map(|pixel| self.open_means(pixel)).collect();
-        let closed = self
-            .closed
-            .get_or_insert_with(|| ClosedStages { sums: vec![Default::default(); means.len()], weight: 0.0 });
-        for (sums, means) in closed.sums.iter_mut().zip(means) {
-            for (sum, mean) in sums.iter_mut().zip(means) {
-                (0..3).for_each(|c| sum[c] += self.open_weight * mean[c]);
-            }
-        }
+        let pixels = self.counts.len();
+        let means: Vec<f64> = (0..pixels)
+            .flat_map(|pixel| (0..CAMERA_REPLICATES).map(move |r| (pixel, r)))
+            .flat_map(|(pixel, r)| (0..self.channels).map(move |c| (pixel, r, c)))
+            .map(|(pixel, r, c)| self.open_mean(pixel, r, c))
+            .collect();
+        let closed = self.closed.get_or_insert_with(|| ClosedStages { sums: vec![0.0; means.len()], weight: 0.0 });
+        closed.sums.iter_mut().zip(means).for_each(|(sum, mean)| *sum += self.open_weight * mean);
         closed.weight += self.open_weight;
-        self.sums.fill(CameraSums::default());
+        self.sums.fill(0.0);
         self.weigh_open_stage(CameraSamples::default(), 0.0);
     }
 
-    /// Means of a pixel's replicates in the open stage; 0 without samples.
-    fn open_means(&self, pixel: usize) -> [Xyz; CAMERA_REPLICATES] {
-        let CameraSums { xyz, weights } = &self.sums[pixel];
+    /// Mean of a pixel's replicate in the open stage; 0 without samples.
+    fn open_mean(&self, pixel: usize, r: usize, c: usize) -> f64 {
+        let stride = stride(self.channels);
+        let sums = &self.sums[pixel * stride..][..stride];
+        let (values, weights) = sums.split_at(CAMERA_REPLICATES * self.channels);
         let samples = self.open_samples;
-        std::array::from_fn(|r| {
-            let (n, other) = (samples[r], 1 - r);
-            if n == 0.0 {
-                return Xyz::default();
-            }
-            // Without another replicate there is only the brightness that this one has found.
-            let by = if samples[other] > 0.0 { other } else { r };
-            let brightness = |c: usize| if weights[by] > 0.0 { xyz[by][c] / weights[by] } else { 0.0 };
-            std::array::from_fn(|c| (xyz[r][c] - brightness(c) * (weights[r] - n)) / n)
-        })
+        let (n, other) = (samples[r], 1 - r);
+        if n == 0.0 {
+            return 0.0;
+        }
+        // Without another replicate there is only the brightness that this one has found.
+        let by = if samples[other] > 0.0 { other } else { r };
+        let sum = |r: usize| values[r * self.channels + c];
+        let brightness = if weights[by] > 0.0 { sum(by) / weights[by] } else { 0.0 };
+        (sum(r) - brightness * (weights[r] - n)) / n
     }
 
-    /// Mean of a pixel's camera samples.
-    pub(super) fn mean(&self, pixel: usize) -> Xyz {
-        let (means, samples) = (self.open_means(pixel), self.open_samples);
+    /// What closed stages gave in a pixel's replicate, times their weight.
+    fn closed_sum(&self, closed: &ClosedStages, pixel: usize, r: usize, c: usize) -> f64 {
+        closed.sums[(pixel * CAMERA_REPLICATES + r) * self.channels + c]
+    }
+
+    /// Mean of a pixel's camera samples in one channel.
+    pub(super) fn mean(&self, pixel: usize, c: usize) -> f64 {
+        let samples = self.open_samples;
         let taken: f64 = samples.iter().sum();
-        let open = |c: usize| {
-            let sum: f64 = means.iter().zip(samples).map(|(mean, samples)| samples * mean[c]).sum();
-            if taken > 0.0 { sum / taken } else { 0.0 }
-        };
-        let Some(closed) = &self.closed else { return std::array::from_fn(open) };
+        let sum: f64 = (0..CAMERA_REPLICATES).map(|r| samples[r] * self.open_mean(pixel, r, c)).sum();
+        let open = if taken > 0.0 { sum / taken } else { 0.0 };
+        let Some(closed) = &self.closed else { return open };
         let weight = if taken > 0.0 { self.open_weight } else { 0.0 };
-        let before = |c: usize| closed.sums[pixel].iter().map(|s| s[c]).sum::<f64>() / CAMERA_REPLICATES as f64;
-        std::array::from_fn(|c| (before(c) + weight * open(c)) / (closed.weight + weight))
+        let before: f64 = (0..CAMERA_REPLICATES).map(|r| self.closed_sum(closed, pixel, r, c)).sum();
+        (before / CAMERA_REPLICATES as f64 + weight * open) / (closed.weight + weight)
     }
 
-    /// Means of a pixel's replicates; `None` while one has no samples.
-    pub(super) fn replicates(&self, pixel: usize) -> Option<[Xyz; CAMERA_REPLICATES]> {
-        let (open, samples) = (self.open_means(pixel), self.open_samples);
-        let Some(closed) = &self.closed else { return (!samples.contains(&0.0)).then_some(open) };
+    /// Means of a pixel's replicates in one channel; `None` while one has no samples.
+    pub(super) fn replicates(&self, pixel: usize, c: usize) -> Option<[f64; CAMERA_REPLICATES]> {
+        let samples = self.open_samples;
+        let open = |r: usize| self.open_mean(pixel, r, c);
+        let Some(closed) = &self.closed else { return (!samples.contains(&0.0)).then(|| std::array::from_fn(open)) };
         Some(std::array::from_fn(|r| {
             let weight = if samples[r] > 0.0 { self.open_weight } else { 0.0 };
-            std::array::from_fn(|c| (closed.sums[pixel][r][c] + weight * open[r][c]) / (closed.weight + weight))
+            (self.closed_sum(closed, pixel, r, c) + weight * open(r)) / (closed.weight + weight)
         }))
     }
 
@@ -162,9 +168,8 @@ impl CameraPart {
         self.closed.is_some() || self.open_samples == [0.0, 0.0] || !self.open_samples.contains(&0.0)
     }
 
-    /// Variance of the mean of a pixel's samples, from two replicates; 0 without samples.
+    /// Variance of the mean of a pixel's samples in the channels of the picture, from two replicates; 0 without samples.
     pub(super) fn variance(&self, pixel: usize) -> Xyz {
-        let Some([a, b]) = self.replicates(pixel) else { return [0.0; 3] };
-        std::array::from_fn(|c| 0.25 * (a[c] - b[c]) * (a[c] - b[c]))
+        std::array::from_fn(|c| self.replicates(pixel, c).map_or(0.0, |[a, b]| 0.25 * (a - b) * (a - b)))
     }
 }

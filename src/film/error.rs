@@ -134,10 +134,10 @@ impl Film {
         let image = self.to_xyz();
         let mean = image.iter().flatten().sum::<f64>() / (3 * image.len()) as f64;
         let of_pixel = |(pixel, xyz): (usize, &Xyz)| {
-            let of_camera = self.camera.mean(pixel);
-            let [a, b] = self.camera.replicates(pixel).unwrap_or([of_camera; CAMERA_REPLICATES]);
             std::array::from_fn(|c| {
-                let found_twice = xyz[c] - self.scale * (of_camera[c] - a[c].min(b[c]));
+                let of_camera = self.camera.mean(pixel, c);
+                let [a, b] = self.camera.replicates(pixel, c).unwrap_or([of_camera; CAMERA_REPLICATES]);
+                let found_twice = xyz[c] - self.scale * (of_camera - a.min(b));
                 let brightness = (xyz[c] * found_twice).max(0.0) + 0.01 * mean * mean;
                 self.scale * self.scale / brightness.max(f64::MIN_POSITIVE)
             })
@@ -156,7 +156,7 @@ impl Replicates {
         // The square distance of a replicate from the mean, brought to the expectation of the mean's square error.
         let of_replicate = |&r: &usize| {
             let distance = |pixel: usize, c: usize| {
-                let d = self.sums[r][pixel][c] / self.counts[r] - self.mean(pixel, c);
+                let d = self.sum(r, pixel, c) / self.counts[r] - self.mean(pixel, c);
                 scales[pixel][c] * d * d
             };
             let sum: f64 = (0..scales.len()).map(|p| (0..3).map(|c| distance(p, c)).sum::<f64>()).sum();
@@ -177,7 +177,7 @@ impl Replicates {
         let ratio = crate::math::pow(passes(self) / passes(before), decay);
         let amplification = 1.0 / (ratio - 1.0);
         let change = |r: usize, pixel: usize, c: usize| {
-            self.sums[r][pixel][c] / self.counts[r] - before.sums[r][pixel][c] / before.counts[r]
+            self.sum(r, pixel, c) / self.counts[r] - before.sum(r, pixel, c) / before.counts[r]
         };
         // Of each replicate with the mean of the others.
         let n = LIGHT_REPLICATES as f64;
@@ -208,7 +208,7 @@ impl PartError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::Splat;
+    use crate::film::Splats;
 
     fn film_of(pixels: &[[f64; 2]]) -> Film {
         crate::film::tests::film_of(&pixels.iter().map(|values| values.map(|v| [v; 3])).collect::<Vec<_>>())
@@ -251,7 +251,7 @@ mod tests {
         let mut film = Film::new(1, 1, 1.0);
         for r in 0..LIGHT_REPLICATES {
             let value = if r % 2 == 0 { 0.9 } else { 1.1 };
-            film.add_splats(r, 1, 1.0, &[Splat { pixel: 0, xyz: [value; 3] }]);
+            film.add_splats(r, 1, 1.0, &Splats::of(&[(0, [value; 3])]));
         }
         let light = film.error_parts(0.0).unwrap().light;
         assert!((light.mean - 0.01 / 7.0 / 1.01).abs() < 1e-12, "{light:?}");
@@ -267,7 +267,7 @@ mod tests {
         let add = |film: &mut Film, from: f64, to: f64| {
             for r in 0..LIGHT_REPLICATES {
                 let value = (total(to) - total(from)) / 8.0;
-                film.merged.add(1, r, (to - from) / 8.0, std::iter::once(Splat { pixel: 0, xyz: [value; 3] }));
+                film.merged.add(1, r, (to - from) / 8.0, 1.0, &Splats::of(&[(0, [value; 3])]));
             }
         };
         add(&mut film, 0.0, 8.0);

@@ -1,17 +1,23 @@
-//! The film: sums of XYZ in f64, with replicates from which its own error follows. Knows colour and spectra, no scene.
+//! The film: sums in f64 of what a sensor makes of radiance, with replicates from which its own error follows. Knows colour
+//! and spectra, no scene.
+//!
+//! A sensor has any number of channels. The first three are an observer's X, Y and Z: the picture is made of them, and all
+//! errors are judged by them. Sums are flat, pixel by pixel.
 
 mod camera;
 mod error;
 mod filter;
 mod replicates;
 mod sensor;
+mod splats;
 mod tile;
 
 pub use camera::{CameraPart, CameraSamples};
 pub use error::{ErrorParts, PartError, Parts};
 pub use filter::Filter;
-pub use sensor::Sensor;
-pub use tile::{CameraSums, CameraTile};
+pub use sensor::{PICTURE_CHANNELS, Sensor, value};
+pub use splats::Splats;
+pub use tile::{CameraTile, SamplePlace};
 
 use replicates::Replicates;
 
@@ -23,20 +29,12 @@ pub const LIGHT_REPLICATES: usize = 8;
 /// CIE XYZ; 1 everywhere is a spectral radiance of 1 W·m⁻²·sr⁻¹·nm⁻¹.
 pub type Xyz = [f64; 3];
 
-/// One contribution of a light path.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Splat {
-    /// Row-major pixel index.
-    pub pixel: u32,
-    /// Already weighted by filter and wavelength density.
-    pub xyz: Xyz,
-}
-
 /// A picture in the making.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
     width: u32,
     height: u32,
+    channels: usize,
     camera: CameraPart,
     light: Replicates,
     light_paths: u64,
@@ -50,15 +48,21 @@ pub struct Film {
 }
 
 impl Film {
-    /// A black film; sums are in units of `scale` (a power of two).
+    /// A black film for an observer's X, Y and Z; sums are in units of `scale` (a power of two).
     pub fn new(width: u32, height: u32, scale: f64) -> Self {
+        Self::of_channels(width, height, PICTURE_CHANNELS, scale)
+    }
+
+    /// A black film for so many channels, see [`Sensor::channels`].
+    pub fn of_channels(width: u32, height: u32, channels: usize, scale: f64) -> Self {
         Self {
             width,
             height,
-            camera: CameraPart::new(width as usize * height as usize),
-            light: Replicates::default(),
+            channels,
+            camera: CameraPart::new(width as usize * height as usize, channels),
+            light: Replicates::new(channels),
             light_paths: 0,
-            merged: Replicates::default(),
+            merged: Replicates::new(channels),
             merged_before: None,
             non_finite_samples: 0,
             scale,
@@ -71,9 +75,11 @@ impl Film {
         self
     }
 
-    /// Memory of a film with light paths and merging, and of the XYZ picture made from it, bytes a pixel.
-    pub const BYTES_PER_PIXEL: usize =
-        size_of::<CameraSums>() + size_of::<u64>() + (2 * LIGHT_REPLICATES + 2) * size_of::<Xyz>();
+    /// Memory of a film of so many channels with light paths and merging, and of the picture made from it, bytes a pixel.
+    pub const fn bytes_per_pixel(channels: usize) -> usize {
+        let numbers = tile::stride(channels) + 2 * LIGHT_REPLICATES * channels + 2 * PICTURE_CHANNELS;
+        size_of::<u64>() + numbers * size_of::<f64>()
+    }
 
     /// Pixels per row.
     pub fn width(&self) -> u32 {
@@ -111,9 +117,8 @@ impl Film {
     }
 
     /// Adds what `paths` light paths of a replicate left. Each counts `weight` in the mean over all.
-    pub fn add_splats(&mut self, replicate: usize, paths: u64, weight: f64, splats: &[Splat]) {
-        let weighted = splats.iter().map(|s| Splat { pixel: s.pixel, xyz: s.xyz.map(|v| v * weight) });
-        self.non_finite_samples += self.light.add(self.pixels(), replicate, paths as f64 * weight, weighted);
+    pub fn add_splats(&mut self, replicate: usize, paths: u64, weight: f64, splats: &Splats) {
+        self.non_finite_samples += self.light.add(self.pixels(), replicate, paths as f64 * weight, weight, splats);
         self.light_paths += paths;
     }
 
@@ -123,8 +128,8 @@ impl Film {
     }
 
     /// Adds what a pass of photon merging in a replicate gave for some pixels.
-    pub fn add_merged(&mut self, replicate: usize, pixels: impl Iterator<Item = Splat>) {
-        self.non_finite_samples += self.merged.add(self.pixels(), replicate, 1.0, pixels);
+    pub fn add_merged(&mut self, replicate: usize, splats: &Splats) {
+        self.non_finite_samples += self.merged.add(self.pixels(), replicate, 1.0, 1.0, splats);
     }
 
     /// Light paths traced in all, those of merging aside.
@@ -132,10 +137,21 @@ impl Film {
         self.light_paths
     }
 
-    /// XYZ of a pixel: the mean of its camera samples plus the means over light paths and over passes of merging.
+    /// Value of a pixel in one channel: the mean of its camera samples plus the means over light paths and over passes of
+    /// merging.
+    pub fn value(&self, pixel: usize, channel: usize) -> f64 {
+        let light = self.light.mean(pixel, channel);
+        self.scale * (self.camera.mean(pixel, channel) + light + self.merged.mean(pixel, channel))
+    }
+
+    /// How many channels there are.
+    pub fn channels(&self) -> usize {
+        self.channels
+    }
+
+    /// XYZ of a pixel.
     pub fn xyz(&self, pixel: usize) -> Xyz {
-        let camera = self.camera.mean(pixel);
-        std::array::from_fn(|c| self.scale * (camera[c] + self.light.mean(pixel, c) + self.merged.mean(pixel, c)))
+        std::array::from_fn(|c| self.value(pixel, c))
     }
 
     /// All pixels, row by row.
@@ -147,6 +163,8 @@ impl Film {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::color::Observer;
+    use crate::spectrum::{SampledSpectrum, WavelengthDensity};
 
     /// A film of one row with samples of its own in each pixel, one in each replicate.
     pub fn film_of(pixels: &[[Xyz; 2]]) -> Film {
@@ -158,9 +176,9 @@ pub(crate) mod tests {
 
     /// Adds to a film of one row a sample of its own for each pixel and replicate.
     pub fn add_row(film: &mut Film, pixels: &[[Xyz; 2]]) {
-        let mut tile = CameraTile::new([0, 0], [pixels.len() as u32, 1], 0);
+        let mut tile = CameraTile::new([0, 0], [pixels.len() as u32, 1], 0, 3);
         for (x, sums) in pixels.iter().enumerate() {
-            (0..2).for_each(|r| tile.add_to_pixel([x as i32, 0], r, (1.0, sums[r])));
+            (0..2).for_each(|r| tile.add_to_pixel([x as i32, 0], r, &sums[r]));
             film.camera_mut().count_samples(Some(x), 2);
         }
         film.add_tiles(&[&tile]);
@@ -180,11 +198,12 @@ pub(crate) mod tests {
         };
         for _ in 0..runs {
             let mut film = Film::new(1, 1, 1.0);
-            let mut tile = CameraTile::new([-1, -1], [3, 3], 1);
+            let mut tile = CameraTile::new([-1, -1], [3, 3], 1, 3);
             for (i, replicate) in (0..9).flat_map(|i| [(i, 0), (i, 1)]) {
                 let (x, offset) = (i % 3 - 1, [uniform(), uniform()]);
                 let at = x as f32 + offset[0];
-                tile.add(&filter, ([x, i / 3 - 1], offset), replicate, (1.0, [2.0, light(at), 0.0]));
+                let place = SamplePlace { pixel: [x, i / 3 - 1], offset: Some(offset), replicate, weight: 1.0 };
+                tile.add_known(&filter, place, &[2.0, light(at), 0.0]);
                 exact += f64::from(filter.weight(at - 0.5)) * light(at) / f64::from(6 * runs);
             }
             film.add_tiles(&[&tile]);
@@ -203,10 +222,57 @@ pub(crate) mod tests {
         let mut film = Film::new(2, 1, 4.0);
         add_row(&mut film, &[[[1.0, 2.0, 3.0], [3.0, 2.0, 1.0]], [[f64::NAN, 0.0, 0.0], [0.0; 3]]]);
         film.camera_mut().weigh_open_stage([1.0; 2], 1.0);
-        film.add_splats(2, 10, 0.5, &[Splat { pixel: 1, xyz: [5.0; 3] }, Splat { pixel: 0, xyz: [f64::INFINITY; 3] }]);
+        film.add_splats(2, 10, 0.5, &Splats::of(&[(1, [5.0; 3]), (0, [f64::INFINITY; 3])]));
         assert_eq!(film.xyz(0), [8.0, 8.0, 8.0]);
         assert_eq!(film.xyz(1), [2.0; 3]);
         assert_eq!((film.non_finite_samples, film.camera_paths(), film.light_paths()), (2, 4, 10));
+    }
+
+    /// A sensor of an observer and seven bands, under a spectrum that rises with the wavelength: every band holds its mean,
+    /// from camera samples, splats and merging alike, and the picture and its error are what they are without bands.
+    #[test]
+    fn bands_beside_the_picture() {
+        let observer = Sensor::of_observer(Observer::cie_1931_2deg());
+        let edges = |band: usize| (400.0 + 40.0 * band as f64, 440.0 + 40.0 * band as f64);
+        let response = |band: usize, nm: f64| {
+            let (low, high) = edges(band);
+            if nm > low && nm <= high { 1.0 / 40.0 } else { 0.0 }
+        };
+        let sensor = observer.clone().with_channels(7, response);
+        assert_eq!((sensor.channels(), Film::bytes_per_pixel(10) - Film::bytes_per_pixel(3)), (10, 7 * 18 * 8));
+        let nm: Vec<f64> = (360..=830).map(f64::from).collect();
+        let density = WavelengthDensity::new(&nm, &vec![1.0; nm.len()], &vec![1.0; nm.len()]);
+        let filter = Filter::boxed(0.5);
+        let film_of = |sensor: &Sensor| {
+            let mut film = Film::of_channels(1, 1, sensor.channels(), 1.0);
+            let mut tile = CameraTile::new([0, 0], [1, 1], 0, sensor.channels());
+            let (mut splats, mut weights) = (Splats::new(sensor.channels()), Vec::new());
+            let n = 4096;
+            for i in 0..n {
+                let wavelengths = density.sample((i as f32 + 0.5) / n as f32);
+                let radiance = SampledSpectrum::from_fn(|k| wavelengths.lambda_nm[k] / 1000.0);
+                let place = SamplePlace { pixel: [0, 0], offset: None, replicate: i % 2, weight: 1.0 };
+                tile.add(sensor, &filter, &place, &wavelengths, radiance);
+                sensor.weights(&wavelengths, &mut weights);
+                splats.push(0, 1.0, &weights, radiance);
+            }
+            film.add_tiles(&[&tile]);
+            film.camera_mut().weigh_open_stage([n as f64 / 2.0; 2], 1.0);
+            (0..2).for_each(|r| film.add_splats(r, n as u64, 1.0, &splats));
+            film.add_merged(0, &splats);
+            film.add_merged(1, &splats);
+            film
+        };
+        let (with, without) = (film_of(&sensor), film_of(&observer));
+        assert_eq!((with.xyz(0), with.standard_error(0)), (without.xyz(0), without.standard_error(0)));
+        assert_eq!(with.estimated_relative_mse(), without.estimated_relative_mse());
+        for band in 0..7 {
+            let (low, high) = edges(band);
+            // Camera samples and light paths bring the mean once each, merging by passes of 4096 samples each.
+            let mean = (low + high) / 2000.0;
+            let found = with.value(0, PICTURE_CHANNELS + band);
+            assert!((found / (mean * (2.0 + 4096.0)) - 1.0).abs() < 0.02, "band {band}: {found}");
+        }
     }
 
     /// Samples all over the film and as far beyond as the filter reaches: a constant stays one up to the edges, whatever the
@@ -223,12 +289,13 @@ pub(crate) mod tests {
             .into_iter()
             .map(|rows| {
                 let size = [width + 2 * reach as u32, rows.len() as u32];
-                let mut tile = CameraTile::new([-reach, rows.start], size, reach as u32);
+                let mut tile = CameraTile::new([-reach, rows.start], size, reach as u32, 3);
                 for (y, x) in rows.flat_map(|y| (-reach..width as i32 + reach).map(move |x| (y, x))) {
                     for i in 0..n * n {
                         let offset = [i % n, i / n].map(|i| (i as f32 + 0.5) / n as f32);
                         let (px, py) = (x as f32 + offset[0], y as f32 + offset[1]);
-                        tile.add(&filter, ([x, y], offset), i % 2, (1.0, [1.0, light(px, py), 0.0]));
+                        let place = SamplePlace { pixel: [x, y], offset: Some(offset), replicate: i % 2, weight: 1.0 };
+                        tile.add_known(&filter, place, &[1.0, light(px, py), 0.0]);
                         filter.splat([px, py], width, height, |column, row, weight| {
                             expected[(row * width + column) as usize] += f64::from(weight) * light(px, py);
                         });

@@ -96,10 +96,10 @@ mod tests {
         let attributes =
             Attributes { scene_hash: 0xabc, seed: 7, samples_per_pixel: 16, seconds: 1.5, observer: "1931-2" };
         let mut film = Film::new(3, 2, 1.0);
-        let mut tile = CameraTile::new([0, 0], [3, 2], 0);
+        let mut tile = CameraTile::new([0, 0], [3, 2], 0, 3);
         for i in 0..6u32 {
             (0..2).for_each(|r| {
-                tile.add_to_pixel([i as i32 % 3, i as i32 / 3], r, (1.0, [f64::from(i), 0.5 + r as f64, 1e60]));
+                tile.add_to_pixel([i as i32 % 3, i as i32 / 3], r, &[f64::from(i), 0.5 + r as f64, 1e60]);
             });
             film.camera_mut().count_samples(Some(i as usize), 2);
         }

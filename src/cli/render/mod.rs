@@ -8,7 +8,7 @@ use super::names::{INTEGRATORS, TONEMAPS, listed, named};
 use super::values::{exposure, resolution};
 use super::{process, usage};
 use crate::color::Observer;
-use crate::film::Film;
+use crate::film::{Film, PICTURE_CHANNELS};
 use crate::render::{Progress, blind_spot, render};
 use crate::scene::description::{self, SceneDescription};
 use crate::scene::{Compiled, compile};
@@ -246,7 +246,7 @@ fn develop_settings(description: &SceneDescription, args: &RenderArgs) -> Result
 /// Refuses a film that does not fit into memory before any work is done.
 fn check_memory(description: &SceneDescription) -> Result<()> {
     let (width, height) = (description.film.width, description.film.height);
-    let needed = u64::from(width) * u64::from(height) * Film::BYTES_PER_PIXEL as u64;
+    let needed = u64::from(width) * u64::from(height) * Film::bytes_per_pixel(PICTURE_CHANNELS) as u64;
     match process::available_memory_bytes() {
         Some(available) if needed > available => {
             let gigabytes = |bytes: u64| bytes as f64 / f64::from(1 << 30);

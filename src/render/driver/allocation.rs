@@ -82,12 +82,12 @@ impl Allocation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::{Splat, tests::film_of};
+    use crate::film::{Splats, tests::film_of};
 
     fn film(light: [f64; 2]) -> Film {
         let mut film = film_of(&[[[0.9; 3], [1.1; 3]]]);
         for (replicate, value) in light.into_iter().enumerate() {
-            film.add_splats(replicate, 1, 1.0, &[Splat { pixel: 0, xyz: [value; 3] }]);
+            film.add_splats(replicate, 1, 1.0, &Splats::of(&[(0, [value; 3])]));
         }
         film
     }

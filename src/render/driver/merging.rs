@@ -4,7 +4,7 @@ use super::passes::{CameraStart, tile_pixels, tiles};
 use super::renderer::Renderer;
 use super::streams::{Stream, render_seed};
 use crate::bsdf::{Branching, Indices, Parting};
-use crate::film::{Film, LIGHT_REPLICATES, Splat};
+use crate::film::{Film, LIGHT_REPLICATES, Splats};
 use crate::render::paths::{Counters, Place, Vertex, Walk, Workspace};
 use crate::render::techniques::{
     LightTracer, Merging, Photon, PhotonCollector, PhotonMap, follow_specular, radiance_ratio,
@@ -71,32 +71,34 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
         let (map, mut counters) = self.photon_map(merging, pass, wavelengths);
         state.seen.resize((self.film.width * self.film.height) as usize, false);
         let all = &state.seen;
-        let results: Vec<(Vec<(Splat, bool)>, Counters)> = tiles(self.film)
+        let mut weights = Vec::new();
+        self.film.sensor.weights(&wavelengths, &mut weights);
+        let weights = weights.as_slice();
+        let results: Vec<(Splats, Vec<(u32, bool)>, Counters)> = tiles(self.film)
             .into_par_iter()
             .map_init(
                 || Workspace::new(self.scene),
                 |workspace, tile| {
                     workspace.counters = Counters::default();
                     let pixels = tile_pixels(tile, self.film.width, self.film.height);
-                    let merged = pixels
-                        .filter_map(|pixel| {
-                            let weight = self.look_at(all[pixel as usize], pixel, pass)?;
-                            Some(self.merge_pixel(workspace, &map, pixel, pass, wavelengths, weight))
-                        })
-                        .collect();
-                    (merged, workspace.counters)
+                    let (mut splats, mut looked_at) = (Splats::new(weights.len()), Vec::new());
+                    for pixel in pixels {
+                        let Some(weight) = self.look_at(all[pixel as usize], pixel, pass) else { continue };
+                        let (radiance, seen) = self.merge_pixel(workspace, &map, pixel, pass, wavelengths, weight);
+                        splats.push(pixel, 1.0, weights, radiance);
+                        looked_at.push((pixel, seen));
+                    }
+                    (splats, looked_at, workspace.counters)
                 },
             )
             .collect();
-        let mut merged = Vec::new();
-        for (tile, count) in results {
+        let mut merged = Splats::new(weights.len());
+        for (splats, looked_at, count) in results {
             counters.add(count);
-            merged.extend(tile);
+            merged.append(splats);
+            looked_at.into_iter().for_each(|(pixel, seen)| state.seen[pixel as usize] |= seen);
         }
-        for (splat, seen) in &merged {
-            state.seen[splat.pixel as usize] |= seen;
-        }
-        film.add_merged((pass % LIGHT_REPLICATES as u64) as usize, merged.into_iter().map(|(splat, _)| splat));
+        film.add_merged((pass % LIGHT_REPLICATES as u64) as usize, &merged);
         counters
     }
 
@@ -145,7 +147,7 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
         (PhotonMap::new(photons, merging.radius_of(pass), merging.photon_paths), counters)
     }
 
-    /// What the photons add to a pixel, and whether there was a surface to merge on.
+    /// Radiance that the photons add to a pixel, and whether there was a surface to merge on.
     fn merge_pixel(
         &self,
         workspace: &mut Workspace,
@@ -154,7 +156,7 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
         pass: u64,
         wavelengths: Wavelengths,
         weight: f32,
-    ) -> (Splat, bool) {
+    ) -> (SampledSpectrum, bool) {
         let (mut radiance, mut seen) = (SampledSpectrum::ZERO, false);
         let max_depth = self.settings.max_depth;
         self.eye_path(workspace, pixel, pass, wavelengths, &mut |walk, vertex, camera_indices| {
@@ -165,7 +167,7 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
                 radiance += gathered * walk.carried.throughput * ratio * weight;
             }
         });
-        (Splat { pixel, xyz: self.xyz(&wavelengths, radiance) }, seen)
+        (radiance, seen)
     }
 
     /// Follows a pixel's camera path of a pass to where photons are looked for.

@@ -6,7 +6,7 @@ use super::renderer::Renderer;
 use super::schedule::Segment;
 use super::streams::{Stream, render_seed};
 use crate::bsdf::{Branching, Carried, Parting};
-use crate::film::{CAMERA_REPLICATES, CameraTile, Film, LIGHT_REPLICATES, Sensor, Splat, Xyz};
+use crate::film::{CAMERA_REPLICATES, CameraTile, Film, LIGHT_REPLICATES, SamplePlace, Splats};
 use crate::render::paths::{Counters, Place, TransportMode, Walk, Workspace};
 use crate::render::techniques::{LightTracer, Splatter, Techniques, baseline, radiance};
 use crate::sampling::DIMENSIONS;
@@ -67,7 +67,7 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
         workspace.counters = Counters::default();
         let reach = self.filter_reach();
         let size = [columns.len() as u32, rows.len() as u32];
-        let mut sums = CameraTile::new([columns.start, rows.start], size, reach);
+        let mut sums = CameraTile::new([columns.start, rows.start], size, reach, self.film.sensor.channels());
         let mut squares = Vec::with_capacity(columns.len() * rows.len());
         let (seed, branching) = (render_seed(self.settings.seed), self.plan.camera);
         for (y, x) in rows.flat_map(|y| columns.clone().map(move |x| (y, x))) {
@@ -78,12 +78,10 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
             };
             let rays = workspace.counters.rays;
             for sample in samples.clone() {
-                let CameraSample { offset, replicate, xyz } =
+                let CameraSample { offset, replicate, wavelengths, radiance } =
                     self.camera_sample(workspace, [x, y], sample, seed, branching);
-                match offset {
-                    Some(offset) => sums.add(&self.film.filter, ([x, y], offset), replicate, (weight, xyz)),
-                    None => sums.add_to_pixel([x, y], replicate, (weight, xyz)),
-                }
+                let place = SamplePlace { pixel: [x, y], offset, replicate, weight };
+                sums.add(&self.film.sensor, &self.film.filter, &place, &wavelengths, radiance);
             }
             let (samples, rays) = (samples.end - samples.start, workspace.counters.rays - rays);
             squares.push(Square { pixel, samples, rays });
@@ -146,7 +144,7 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
             (walk.carried.hero, walk.carried.throughput) = (0, baseline::throughput());
         }
         let radiance = radiance::<INTERIORS>(&mut walk, &self.plan.techniques, self.settings.max_depth);
-        CameraSample { offset: (!baseline).then_some(offset), replicate, xyz: self.xyz(&wavelengths, radiance) }
+        CameraSample { offset: (!baseline).then_some(offset), replicate, wavelengths, radiance }
     }
 
     /// A number for each pixel of the film, and beyond it as far as the filter reaches.
@@ -180,11 +178,6 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
         Walk::start(self.scene, workspace, ray, TransportMode::Radiance, carried, place)
     }
 
-    /// XYZ of what a path has found.
-    pub fn xyz(&self, wavelengths: &Wavelengths, radiance: SampledSpectrum) -> [f64; 3] {
-        if radiance.is_zero() { [0.0; 3] } else { Sensor::xyz(&self.film.sensor.weights(wavelengths), radiance) }
-    }
-
     /// How light paths are traced, by the plan.
     pub fn light_tracer(&self) -> LightTracer<'_> {
         let techniques = &self.plan.techniques;
@@ -201,7 +194,7 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
     pub fn light_pass(&self, film: &mut Film, paths: Range<u64>, weight: f64) -> Counters {
         let mut counters = Counters::default();
         for blocks in blocks_of(paths).chunks(BLOCKS_AT_ONCE) {
-            let results: Vec<(Vec<Splat>, Counters)> = blocks
+            let results: Vec<(Splats, Counters)> = blocks
                 .into_par_iter()
                 .map_init(|| Workspace::new(self.scene), |workspace, block| self.light_block(workspace, block.clone()))
                 .collect();
@@ -214,7 +207,7 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
     }
 
     /// Light paths of one block: replicates have blocks in turns, each with a sequence of its own.
-    fn light_block(&self, workspace: &mut Workspace, paths: Range<u64>) -> (Vec<Splat>, Counters) {
+    fn light_block(&self, workspace: &mut Workspace, paths: Range<u64>) -> (Splats, Counters) {
         workspace.counters = Counters::default();
         let stream = Stream::Light { replicate: replicate_of(&paths) as u8 };
         let sobol = stream.sequence(render_seed(self.settings.seed));
@@ -246,7 +239,10 @@ pub struct CameraSample {
     /// Where, from the corner of its pixel; `None` where it counts in that pixel alone.
     offset: Option<[f32; 2]>,
     replicate: usize,
-    pub xyz: Xyz,
+    /// Its wavelengths,
+    pub wavelengths: Wavelengths,
+    /// and the radiance at them.
+    pub radiance: SampledSpectrum,
 }
 
 /// What was found in a tile.

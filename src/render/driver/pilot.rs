@@ -6,7 +6,7 @@ use super::plan::Plan;
 use super::renderer::Renderer;
 use super::streams::pilot_seed;
 use crate::bsdf::{Branching, Parting};
-use crate::film::{Filter, Xyz};
+use crate::film::{Filter, Xyz, value};
 use crate::render::paths::{Counters, Place, Workspace};
 use crate::render::techniques::{Experience, LightTracer, Splatter, Techniques};
 use crate::sampling::{Sobol, mix};
@@ -137,12 +137,15 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
                 || Workspace::new(self.scene),
                 |workspace, row| {
                     workspace.counters = Counters::default();
+                    let mut weights = Vec::new();
                     let squares = (0..across).map(|column| {
                         let pixel = self.pilot_pixel(row * across + column);
                         std::array::from_fn(|sample| {
                             let branching = Branching { parting: Parting::Ways(ways), ..self.plan.camera };
                             let (seed, at) = (pilot_seed(self.settings.seed), self.column_and_row(pixel));
-                            let xyz = self.camera_sample(workspace, at, sample as u64, seed, branching).xyz;
+                            let found = self.camera_sample(workspace, at, sample as u64, seed, branching);
+                            self.film.sensor.weights(&found.wavelengths, &mut weights);
+                            let xyz: Xyz = std::array::from_fn(|c| value(weights[c], found.radiance));
                             if xyz.iter().all(|v| v.is_finite()) { xyz } else { Xyz::default() }
                         })
                     });
@@ -173,7 +176,9 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
                             let place = Place { sobol, index };
                             tracer.trace::<INTERIORS>(workspace, place, None, &mut splatter);
                             let (light, numbers) = splatter.start?;
-                            let hits = splatter.splats.drain(..).map(|s| (s.pixel, s.xyz)).collect();
+                            let picture = |values: &[f64]| std::array::from_fn(|c| values[c]);
+                            let hits = splatter.splats.iter().map(|(pixel, values)| (pixel, picture(values))).collect();
+                            splatter.splats.clear();
                             Some(LightTrialPath { light, numbers, hits })
                         })
                         .collect();

@@ -55,7 +55,12 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
     }
 
     fn render(mut self, mut state: RenderState, proceed: &mut dyn FnMut(Progress) -> bool) -> Rendering {
-        let mut film = Film::new(self.film.width, self.film.height, self.scene.radiance_scale);
+        let mut film = Film::of_channels(
+            self.film.width,
+            self.film.height,
+            self.film.sensor.channels(),
+            self.scene.radiance_scale,
+        );
         if self.filter_reach() > 0 {
             film = film.filtered(&self.film.filter);
         }

@@ -4,7 +4,7 @@ use super::camera::{camera_density, rough_camera_density};
 use super::guide::Guide;
 use super::table::{LightPathDensity, Techniques};
 use crate::bsdf::{Branching, Carried};
-use crate::film::{Filter, Sensor, Splat};
+use crate::film::{Filter, Sensor, Splats};
 use crate::geometry::Ray;
 use crate::render::paths::{Encounter, Place, Scattering, TransportMode, Vertex, Walk, Workspace, adjoint};
 use crate::sampling::{Draw, balance_heuristic};
@@ -209,34 +209,33 @@ impl First {
 /// Collects what the camera sees of light paths.
 #[derive(Debug)]
 pub struct Splatter<'a> {
-    /// The colour observer.
+    /// What the film records.
     pub sensor: &'a Sensor,
     /// The reconstruction filter.
     pub filter: &'a Filter,
     /// Who else finds the same paths.
     pub techniques: &'a Techniques,
     /// What the film gets.
-    pub splats: Vec<Splat>,
+    pub splats: Splats,
     /// Light and guided numbers of the last path that left one.
     pub start: Option<(u32, [f32; 2])>,
     /// Of the path under way: see [`Techniques::light_path_density`].
     density: Option<LightPathDensity>,
-    weights: [SampledSpectrum; 3],
+    /// The sensor's, at the wavelengths of the path under way.
+    weights: Vec<SampledSpectrum>,
 }
 
 impl<'a> Splatter<'a> {
     /// With no splats yet.
     pub fn new(sensor: &'a Sensor, filter: &'a Filter, techniques: &'a Techniques) -> Self {
-        let weights = [SampledSpectrum::ZERO; 3];
-        Self { sensor, filter, techniques, splats: Vec::new(), start: None, density: None, weights }
+        let splats = Splats::new(sensor.channels());
+        Self { sensor, filter, techniques, splats, start: None, density: None, weights: Vec::new() }
     }
 
     fn deposit(&mut self, scene: &Scene, film: [f32; 2], radiance: SampledSpectrum) {
-        let xyz = Sensor::xyz(&self.weights, radiance);
         let [width, height] = scene.camera.size();
         self.filter.splat(film, width, height, |x, y, weight| {
-            let pixel = y * width + x;
-            self.splats.push(Splat { pixel, xyz: xyz.map(|v| v * f64::from(weight)) });
+            self.splats.push(y * width + x, f64::from(weight), &self.weights, radiance);
         });
     }
 
@@ -261,7 +260,7 @@ impl<'a> Splatter<'a> {
 impl Collector for Splatter<'_> {
     fn leave<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start) {
         self.start = Some((start.light, start.numbers));
-        self.weights = self.sensor.weights(&start.wavelengths);
+        self.sensor.weights(&start.wavelengths, &mut self.weights);
         self.density = self.techniques.light_path_density(walk.scene, start.light, &start.emission.exit());
         if matches!(self.techniques, Techniques::Light { .. }) {
             self.splat_emitter::<INTERIORS>(walk, start);
