@@ -1,7 +1,7 @@
 //! The smooth metal.
 
-use super::BsdfSample;
 use super::mirror::mirror_direction;
+use super::{BsdfSample, Carried, Density, ScatteringModel};
 use crate::geometry::Frame;
 use crate::optics::fresnel_conductor;
 use crate::spectrum::{LANES, SampledSpectrum};
@@ -32,5 +32,28 @@ impl Conductor {
         SampledSpectrum::from_fn(|lane| {
             fresnel_conductor(cos_theta, self.eta_outside[lane], f64::from(eta[lane]), f64::from(k[lane])) as f32
         })
+    }
+}
+
+impl ScatteringModel for Conductor {
+    const SPECULAR: bool = true;
+    const ROUGH: bool = false;
+    const TRANSMITS: bool = false;
+
+    fn eval(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
+        SampledSpectrum::ZERO
+    }
+
+    #[inline(always)]
+    fn sample(&self, frame: &Frame, wo: Vec3, _: &Carried, _: [f32; 2], _: f32) -> Option<BsdfSample> {
+        Self::sample(self, frame, wo)
+    }
+
+    fn pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> Density {
+        Density::Delta
+    }
+
+    fn own_pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
+        SampledSpectrum::ZERO
     }
 }

@@ -1,7 +1,7 @@
 //! The smooth boundary between two transparent media.
 
-use super::carried::{Carried, Lanes};
-use super::{Aside, BsdfSample, Density, Outgoing};
+use super::carried::Lanes;
+use super::{Aside, BsdfSample, Carried, Density, Outgoing, ScatteringModel};
 use crate::geometry::Frame;
 use crate::optics::{self, Refraction};
 use crate::spectrum::{LANES, SampledSpectrum};
@@ -173,6 +173,29 @@ impl Division {
 
 fn reflectance(refraction: Option<Refraction>) -> f32 {
     refraction.map_or(1.0, |r| r.reflectance as f32)
+}
+
+impl ScatteringModel for Dielectric {
+    const SPECULAR: bool = true;
+    const ROUGH: bool = false;
+    const TRANSMITS: bool = true;
+
+    fn eval(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
+        SampledSpectrum::ZERO
+    }
+
+    #[inline(always)]
+    fn sample(&self, frame: &Frame, wo: Vec3, carried: &Carried, _: [f32; 2], choice: f32) -> Option<BsdfSample> {
+        Self::sample(self, frame, wo, carried, choice)
+    }
+
+    fn pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> Density {
+        Density::Delta
+    }
+
+    fn own_pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
+        SampledSpectrum::ZERO
+    }
 }
 
 #[cfg(test)]

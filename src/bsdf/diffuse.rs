@@ -1,6 +1,6 @@
 //! Lambertian reflection.
 
-use super::BsdfSample;
+use super::{BsdfSample, Carried, Density, ScatteringModel};
 use crate::geometry::Frame;
 use crate::sampling::cosine_hemisphere;
 use crate::spectrum::SampledSpectrum;
@@ -35,5 +35,28 @@ impl Diffuse {
     /// cos θ_i / π.
     pub fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> f32 {
         if frame.same_side(wo, wi) { frame.cos_shading(wi).max(0.0) * FRAC_1_PI } else { 0.0 }
+    }
+}
+
+impl ScatteringModel for Diffuse {
+    const SPECULAR: bool = false;
+    const ROUGH: bool = false;
+    const TRANSMITS: bool = false;
+
+    fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+        Self::eval(self, frame, wo, wi)
+    }
+
+    #[inline(always)]
+    fn sample(&self, frame: &Frame, wo: Vec3, _: &Carried, u: [f32; 2], _: f32) -> Option<BsdfSample> {
+        Self::sample(self, frame, wo, u)
+    }
+
+    fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Density {
+        Density::Shared(Self::pdf(self, frame, wo, wi))
+    }
+
+    fn own_pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+        SampledSpectrum::splat(Self::pdf(self, frame, wo, wi))
     }
 }

@@ -1,6 +1,6 @@
 //! The perfect mirror.
 
-use super::BsdfSample;
+use super::{BsdfSample, Carried, Density, ScatteringModel};
 use crate::geometry::Frame;
 use crate::optics;
 use crate::spectrum::SampledSpectrum;
@@ -24,4 +24,27 @@ impl Mirror {
 /// Mirror image of `wo` about the geometric normal, in f64 as every specular direction.
 pub(super) fn mirror_direction(frame: &Frame, wo: Vec3) -> Vec3 {
     optics::reflect(-wo.as_dvec3().normalize(), frame.geometric).as_vec3()
+}
+
+impl ScatteringModel for Mirror {
+    const SPECULAR: bool = true;
+    const ROUGH: bool = false;
+    const TRANSMITS: bool = false;
+
+    fn eval(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
+        SampledSpectrum::ZERO
+    }
+
+    #[inline(always)]
+    fn sample(&self, frame: &Frame, wo: Vec3, _: &Carried, _: [f32; 2], _: f32) -> Option<BsdfSample> {
+        Self::sample(self, frame, wo)
+    }
+
+    fn pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> Density {
+        Density::Delta
+    }
+
+    fn own_pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
+        SampledSpectrum::ZERO
+    }
 }

@@ -129,39 +129,70 @@ impl BsdfSample {
     }
 }
 
+/// What every model states. No method has a default, so that a new model cannot inherit a wrong answer; models of
+/// boundaries that light passes through are met by [`Bsdf::evaluate`] and what follows it.
+trait ScatteringModel {
+    /// Whether the distribution is a delta, for which `eval` and `pdf` are 0.
+    const SPECULAR: bool;
+    /// Whether it has a lobe about the direction of reflection or refraction, wide or narrow.
+    const ROUGH: bool;
+    /// Whether light passes through the surface.
+    const TRANSMITS: bool;
+
+    /// f · |cos θ_i|, per sr, for unit directions.
+    fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum;
+
+    /// Draws a direction by two random numbers, and what kind of scattering takes place by a third.
+    fn sample(&self, frame: &Frame, wo: Vec3, carried: &Carried, u: [f32; 2], choice: f32) -> Option<BsdfSample>;
+
+    /// Density of `sample` in solid angle, by which it is balanced against other techniques.
+    fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Density;
+
+    /// Density in solid angle with which each lane would draw a direction if it were alone.
+    fn own_pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum;
+}
+
+/// Calls the same method of whichever model it is.
+macro_rules! for_model {
+    ($bsdf:expr, $model:ident => $body:expr) => {
+        match $bsdf {
+            Bsdf::Diffuse($model) => $body,
+            Bsdf::Mirror($model) => $body,
+            Bsdf::Conductor($model) => $body,
+            Bsdf::RoughConductor($model) => $body,
+            Bsdf::Dielectric($model) => $body,
+            Bsdf::RoughDielectric($model) => $body,
+        }
+    };
+}
+
+/// The capabilities of a model, of which only its type is known.
+fn capabilities<M: ScatteringModel>(_: &M) -> (bool, bool, bool) {
+    (M::SPECULAR, M::ROUGH, M::TRANSMITS)
+}
+
 impl Bsdf {
     /// Whether the distribution is a delta, for which `eval` and `pdf` are 0.
+    #[inline]
     pub fn is_specular(&self) -> bool {
-        match self {
-            Self::Mirror(_) | Self::Conductor(_) | Self::Dielectric(_) => true,
-            Self::Diffuse(_) | Self::RoughConductor(_) | Self::RoughDielectric(_) => false,
-        }
+        for_model!(self, model => capabilities(model).0)
     }
 
     /// Whether it has a lobe about the direction of reflection or refraction, wide or narrow.
+    #[inline]
     pub fn is_rough(&self) -> bool {
-        match self {
-            Self::RoughConductor(_) | Self::RoughDielectric(_) => true,
-            Self::Diffuse(_) | Self::Mirror(_) | Self::Conductor(_) | Self::Dielectric(_) => false,
-        }
+        for_model!(self, model => capabilities(model).1)
     }
 
     /// Whether light passes through the surface.
+    #[inline]
     pub fn transmits(&self) -> bool {
-        match self {
-            Self::Dielectric(_) | Self::RoughDielectric(_) => true,
-            Self::Diffuse(_) | Self::Mirror(_) | Self::Conductor(_) | Self::RoughConductor(_) => false,
-        }
+        for_model!(self, model => capabilities(model).2)
     }
 
     /// f · |cos θ_i|, per sr, for unit directions.
     pub fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        match self {
-            Self::Diffuse(b) => b.eval(frame, wo, wi),
-            Self::Mirror(_) | Self::Conductor(_) | Self::Dielectric(_) => SampledSpectrum::ZERO,
-            Self::RoughConductor(b) => b.eval(frame, wo, wi),
-            Self::RoughDielectric(b) => b.eval(frame, wo, wi),
-        }
+        for_model!(self, model => ScatteringModel::eval(model, frame, wo, wi))
     }
 
     /// Draws a direction by two random numbers, and what kind of scattering takes place by a third, for the lanes that the
@@ -175,26 +206,12 @@ impl Bsdf {
         direction: [f32; 2],
         choice: f32,
     ) -> Option<BsdfSample> {
-        match self {
-            Self::Diffuse(b) => b.sample(frame, wo, direction),
-            Self::Mirror(b) => b.sample(frame, wo),
-            Self::Conductor(b) => b.sample(frame, wo),
-            Self::RoughConductor(b) => b.sample(frame, wo, direction),
-            Self::Dielectric(b) => b.sample(frame, wo, carried, choice),
-            Self::RoughDielectric(b) => b.sample(frame, wo, carried.throughput, [direction[0], direction[1], choice]),
-        }
+        for_model!(self, model => ScatteringModel::sample(model, frame, wo, carried, direction, choice))
     }
 
     /// Density of `sample` in solid angle, by which it is balanced against other techniques.
     pub fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Density {
-        match self {
-            Self::Diffuse(b) => Density::Shared(b.pdf(frame, wo, wi)),
-            Self::RoughConductor(b) => Density::Shared(b.pdf(frame, wo, wi)),
-            Self::Mirror(_) | Self::Conductor(_) | Self::Dielectric(_) => Density::Delta,
-            Self::RoughDielectric(b) => {
-                Density::PerLane(b.lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| b.balance_pdf(&lobe)))
-            }
-        }
+        for_model!(self, model => ScatteringModel::pdf(model, frame, wo, wi))
     }
 
     /// `eval` and `pdf` at once; `None` where nothing is scattered.
@@ -208,12 +225,7 @@ impl Bsdf {
 
     /// Density in solid angle with which each lane would draw a direction if it were alone.
     pub fn own_pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        match self {
-            Self::Diffuse(b) => SampledSpectrum::splat(b.pdf(frame, wo, wi)),
-            Self::RoughConductor(b) => SampledSpectrum::splat(b.pdf(frame, wo, wi)),
-            Self::Mirror(_) | Self::Conductor(_) | Self::Dielectric(_) => SampledSpectrum::ZERO,
-            Self::RoughDielectric(b) => b.lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| lobe.own_pdf),
-        }
+        for_model!(self, model => ScatteringModel::own_pdf(model, frame, wo, wi))
     }
 
     /// (η_from / η_to)² of each lane for what crosses, else 1: what radiance from there is multiplied by.

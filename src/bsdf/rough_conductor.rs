@@ -1,8 +1,8 @@
 //! The rough metal.
 
-use super::BsdfSample;
 use super::conductor::Conductor;
 use super::microfacet::{Ggx, lit_of_visible};
+use super::{BsdfSample, Carried, Density, ScatteringModel};
 use crate::geometry::Frame;
 use crate::optics;
 use crate::spectrum::SampledSpectrum;
@@ -67,5 +67,28 @@ impl RoughConductor {
         // Visible normals per solid angle, and dm / dwi = 1 / (4 wo·m).
         let pdf = self.ggx.density(normal, m) / (4.0 * cos_o * (1.0 + lambda_o));
         (pdf > 0.0).then_some(Geometry { wo, m, pdf, lit: lit_of_visible(lambda_o, lambda_i, false) })
+    }
+}
+
+impl ScatteringModel for RoughConductor {
+    const SPECULAR: bool = false;
+    const ROUGH: bool = true;
+    const TRANSMITS: bool = false;
+
+    fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+        Self::eval(self, frame, wo, wi)
+    }
+
+    #[inline(always)]
+    fn sample(&self, frame: &Frame, wo: Vec3, _: &Carried, u: [f32; 2], _: f32) -> Option<BsdfSample> {
+        Self::sample(self, frame, wo, u)
+    }
+
+    fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Density {
+        Density::Shared(Self::pdf(self, frame, wo, wi))
+    }
+
+    fn own_pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+        SampledSpectrum::splat(Self::pdf(self, frame, wo, wi))
     }
 }

@@ -27,7 +27,7 @@
 use super::carried::Lanes;
 use super::dielectric::{Dielectric, Incidence};
 use super::microfacet::{Ggx, lit_of_visible};
-use super::{BsdfSample, Density, Evaluation, Outgoing};
+use super::{BsdfSample, Carried, Density, Evaluation, Outgoing, ScatteringModel};
 use crate::geometry::Frame;
 use crate::optics;
 use crate::spectrum::{LANES, SampledSpectrum};
@@ -291,4 +291,27 @@ impl RoughDielectric {
 fn crosses(frame: &Frame, wi: Vec3) -> Option<bool> {
     let cos = frame.geometric.as_vec3().dot(wi);
     (cos != 0.0).then_some(cos < 0.0)
+}
+
+impl ScatteringModel for RoughDielectric {
+    const SPECULAR: bool = false;
+    const ROUGH: bool = true;
+    const TRANSMITS: bool = true;
+
+    fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+        Self::eval(self, frame, wo, wi)
+    }
+
+    #[inline(always)]
+    fn sample(&self, frame: &Frame, wo: Vec3, carried: &Carried, u: [f32; 2], choice: f32) -> Option<BsdfSample> {
+        Self::sample(self, frame, wo, carried.throughput, [u[0], u[1], choice])
+    }
+
+    fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Density {
+        Density::PerLane(self.lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| self.balance_pdf(&lobe)))
+    }
+
+    fn own_pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+        self.lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| lobe.own_pdf)
+    }
 }
