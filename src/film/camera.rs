@@ -120,9 +120,8 @@ impl CameraPart {
 
     /// Mean of a pixel's replicate in the open stage; 0 without samples.
     fn open_mean(&self, pixel: usize, r: usize, c: usize) -> f64 {
-        let stride = stride(self.channels);
-        let sums = &self.sums[pixel * stride..][..stride];
-        let (values, weights) = sums.split_at(CAMERA_REPLICATES * self.channels);
+        let of_replicate = |r: usize| &self.sums[(pixel * CAMERA_REPLICATES + r) * (self.channels + 1)..];
+        let (weight, sum) = (|r| of_replicate(r)[0], |r| of_replicate(r)[1 + c]);
         let samples = self.open_samples;
         let (n, other) = (samples[r], 1 - r);
         if n == 0.0 {
@@ -130,9 +129,8 @@ impl CameraPart {
         }
         // Without another replicate there is only the brightness that this one has found.
         let by = if samples[other] > 0.0 { other } else { r };
-        let sum = |r: usize| values[r * self.channels + c];
-        let brightness = if weights[by] > 0.0 { sum(by) / weights[by] } else { 0.0 };
-        (sum(r) - brightness * (weights[r] - n)) / n
+        let brightness = if weight(by) > 0.0 { sum(by) / weight(by) } else { 0.0 };
+        (sum(r) - brightness * (weight(r) - n)) / n
     }
 
     /// What closed stages gave in a pixel's replicate, times their weight.

@@ -3,8 +3,8 @@
 use super::{CAMERA_REPLICATES, Filter, PICTURE_CHANNELS, Sensor, sensor};
 use crate::spectrum::{SampledSpectrum, Wavelengths};
 
-/// Numbers that a pixel has in the sums of camera samples: what samples count in it times their value, by replicate and
-/// channel, and behind them what samples count, by replicate.
+/// Numbers that a pixel has in the sums of camera samples: for each replicate what samples count in it, and behind that what
+/// they count times their value in each channel.
 pub(super) const fn stride(channels: usize) -> usize {
     CAMERA_REPLICATES * (channels + 1)
 }
@@ -29,8 +29,8 @@ pub struct CameraTile {
     pub(super) corner: [i32; 2],
     pub(super) size: [u32; 2],
     pub(super) sums: Vec<f64>,
-    /// Memory for the values of a sample and the sensor's weights.
-    values: Vec<f64>,
+    /// Memory for 1 and the values of a sample, and for the sensor's weights.
+    sample: Vec<f64>,
     weights: Vec<SampledSpectrum>,
     /// Samples that were not finite, and left out.
     pub non_finite: u64,
@@ -45,7 +45,7 @@ impl CameraTile {
             corner: corner.map(|first| first - reach as i32),
             size,
             sums: vec![0.0; (size[0] * size[1]) as usize * stride(channels)],
-            values: vec![0.0; channels],
+            sample: vec![1.0; channels + 1],
             weights: Vec::with_capacity(channels),
             non_finite: 0,
         }
@@ -62,47 +62,45 @@ impl CameraTile {
         radiance: SampledSpectrum,
     ) {
         if radiance.is_zero() {
-            self.values.fill(0.0);
+            self.sample[1..].fill(0.0);
         } else {
             sensor.weights(wavelengths, &mut self.weights);
-            let values = self.values.iter_mut().zip(&self.weights);
+            let values = self.sample[1..].iter_mut().zip(&self.weights);
             values.for_each(|(value, &weights)| *value = sensor::value(weights, radiance));
         }
-        self.add_values(filter, place);
+        self.add_sample(filter, place);
     }
 
-    /// Adds the values in `self.values`.
+    /// Adds the values in `self.sample`.
     #[inline]
-    fn add_values(&mut self, filter: &Filter, place: &SamplePlace) {
+    fn add_sample(&mut self, filter: &Filter, place: &SamplePlace) {
         // A sample that is not finite counts, but its light is lost.
-        if !self.values.iter().all(|v| v.is_finite()) {
+        if !self.sample.iter().all(|v| v.is_finite()) {
             self.non_finite += 1;
-            self.values.fill(0.0);
+            self.sample[1..].fill(0.0);
         }
-        match <[f64; PICTURE_CHANNELS]>::try_from(self.values.as_slice()) {
-            Ok(values) => deposit(&mut self.sums, self.corner, self.size, &values, filter, place),
-            Err(_) => deposit(&mut self.sums, self.corner, self.size, self.values.as_slice(), filter, place),
+        match <[f64; PICTURE_CHANNELS + 1]>::try_from(self.sample.as_slice()) {
+            Ok(sample) => deposit(&mut self.sums, self.corner, self.size, &sample, filter, place),
+            Err(_) => deposit(&mut self.sums, self.corner, self.size, self.sample.as_slice(), filter, place),
         }
     }
 }
 
-/// Adds values to the pixels that they count in. Their number is known to the compiler where they come as an array.
+/// Adds a sample to the pixels that it counts in. The number of its values is known to the compiler where it comes as an array.
 #[inline(always)]
 fn deposit(
     sums: &mut [f64],
     corner: [i32; 2],
     size: [u32; 2],
-    values: &(impl AsRef<[f64]> + ?Sized),
+    sample: &(impl AsRef<[f64]> + ?Sized),
     filter: &Filter,
     place: &SamplePlace,
 ) {
-    let values = values.as_ref();
-    let (channels, stride) = (values.len(), stride(values.len()));
+    let sample = sample.as_ref();
     let mut add = |pixel: usize, weight: f64| {
-        let sums = &mut sums[pixel * stride..][..stride];
-        let of_replicate = &mut sums[place.replicate * channels..][..channels];
-        of_replicate.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
-        sums[CAMERA_REPLICATES * channels + place.replicate] += weight;
+        let first = (pixel * CAMERA_REPLICATES + place.replicate) * sample.len();
+        let sums = &mut sums[first..][..sample.len()];
+        sums.iter_mut().zip(sample).for_each(|(sum, value)| *sum += weight * value);
     };
     let pixel = [0, 1].map(|axis| place.pixel[axis] - corner[axis]);
     let Some(offset) = place.offset else {
@@ -118,8 +116,8 @@ fn deposit(
 impl CameraTile {
     /// Adds a sample whose values are known.
     pub fn add_known(&mut self, filter: &Filter, place: SamplePlace, values: &[f64]) {
-        self.values.copy_from_slice(values);
-        self.add_values(filter, &place);
+        self.sample[1..].copy_from_slice(values);
+        self.add_sample(filter, &place);
     }
 
     /// Adds a sample whose values are known to one pixel.
