@@ -6,7 +6,7 @@ use super::workspace::Workspace;
 use crate::bsdf::{Bsdf, Conductor, Dielectric, Diffuse, Ggx, Lanes, Mirror, Parting, RoughConductor, RoughDielectric};
 use crate::geometry::Frame;
 use crate::scene::{
-    ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, MediumId, MirrorMaterial, Parameter, Surface,
+    ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, MirrorMaterial, Parameter, Surface,
 };
 use glam::Vec3;
 
@@ -14,15 +14,25 @@ use glam::Vec3;
 const MAX_PASSED: u32 = 1 << 20;
 
 impl Walk<'_> {
-    /// Meets the surface at the end of the ray. Boundaries that are optically absent are passed.
+    /// Meets the surface at the end of the ray. Boundaries that are optically absent are passed. At others the workspace's
+    /// `beyond` is what lies past them, up to the next shadow ray.
     #[inline(always)]
     pub fn encounter<'s, const INTERIORS: bool>(&mut self, surface: &'s Surface) -> Encounter<'s> {
         let object = &self.scene.objects[surface.object as usize];
         let wo = -self.ray.direction;
         let focuses = object.material.focuses();
         if let Material::Dielectric(DielectricMaterial { medium, alpha }) = object.material {
-            let (boundary, entered) = self.boundary(surface, medium);
-            let Some(boundary) = boundary else { return self.pass(surface, entered) };
+            let Workspace { spectra, interiors, beyond, .. } = &mut *self.workspace;
+            let entered = beyond.set_past(interiors, self.scene, surface, medium, self.ray.direction);
+            let (from, to) = (interiors.medium(self.scene), beyond.medium(self.scene));
+            // The volume on the other side is the same, or hidden by one of higher priority.
+            if from == to {
+                return self.pass(surface, entered);
+            }
+            let boundary = Dielectric { from: spectra.indices(self.scene, from), to: spectra.indices(self.scene, to) };
+            if boundary.is_invisible() {
+                return self.pass(surface, entered);
+            }
             if self.carried.parting == Parting::Terminate && boundary.is_dispersive() {
                 self.carried.leave_to_hero();
             }
@@ -87,18 +97,6 @@ impl Walk<'_> {
         let parts = may_part && RoughDielectric::parts(&boundary, ggx, frame, wo);
         let (lanes, hero, odds) = (carried.lanes, carried.hero, carried.odds);
         Bsdf::RoughDielectric(RoughDielectric { boundary, ggx, lanes, hero, odds, parts })
-    }
-
-    /// Returns the boundary at the surface of a transparent object; `None` if it is optically absent: the volume on the
-    /// other side is the same, or hidden by one of higher priority. The workspace's `beyond` is what is past it then. The
-    /// second value tells whether that is known, see [`super::interiors::Interiors::set_past`].
-    #[inline(always)]
-    fn boundary(&mut self, surface: &Surface, medium: MediumId) -> (Option<Dielectric>, bool) {
-        let Workspace { spectra, interiors, beyond, .. } = &mut *self.workspace;
-        let entered = beyond.set_past(interiors, self.scene, surface, medium, self.ray.direction);
-        let (from, to) = (interiors.medium(self.scene), beyond.medium(self.scene));
-        let boundary = Dielectric { from: spectra.indices(self.scene, from), to: spectra.indices(self.scene, to) };
-        ((from != to && !boundary.is_invisible()).then_some(boundary), entered)
     }
 
     /// Takes the path into the workspace's `beyond`.
