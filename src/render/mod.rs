@@ -1,5 +1,5 @@
-//! Rendering, in three rooms: [`paths`] is what all paths have in common, [`techniques`] what sets camera paths, light paths
-//! and merging apart, and [`driver`] the order of the work.
+//! Rendering, in three rooms: `paths` is what all paths have in common, `techniques` what sets camera paths, light paths
+//! and merging apart, and `driver` the order of the work.
 
 mod driver;
 mod paths;

@@ -34,7 +34,7 @@ const SMALL_STACK: usize = 16;
 const MEDIUM_STACK: usize = 64;
 const LARGE_STACK: usize = (WIDTH - 1) * build::MAX_DEPTH as usize + 1;
 
-/// A bounding volume hierarchy. See the [module](self).
+/// A bounding volume hierarchy. Its nodes hold boxes of eight children.
 #[derive(Debug, Clone)]
 pub struct Bvh {
     nodes: Vec<Node>,

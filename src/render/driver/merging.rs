@@ -26,6 +26,20 @@ const PHOTON_WAYS: u8 = 4;
 /// Photon paths in a block.
 const BLOCK: u64 = 1024;
 
+/// What a pass of merging has found in a tile.
+struct MergedTile {
+    splats: Splats,
+    /// The pixels looked at, and whether there was something to merge on.
+    looked_at: Vec<(u32, bool)>,
+    counters: Counters,
+}
+
+impl MergedTile {
+    fn new(channels: usize) -> Self {
+        Self { splats: Splats::new(channels), looked_at: Vec::new(), counters: Counters::default() }
+    }
+}
+
 /// What passes have found out so far.
 #[derive(Debug, Default)]
 pub struct MergeState {
@@ -74,29 +88,29 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
         let mut weights = Vec::new();
         self.film.sensor.weights(&wavelengths, &mut weights);
         let weights = weights.as_slice();
-        let results: Vec<(Splats, Vec<(u32, bool)>, Counters)> = tiles(self.film)
+        let results: Vec<MergedTile> = tiles(self.film)
             .into_par_iter()
             .map_init(
                 || Workspace::new(self.scene),
                 |workspace, tile| {
                     workspace.counters = Counters::default();
                     let pixels = tile_pixels(tile, self.film.width, self.film.height);
-                    let (mut splats, mut looked_at) = (Splats::new(weights.len()), Vec::new());
+                    let mut tile = MergedTile::new(weights.len());
                     for pixel in pixels {
                         let Some(weight) = self.look_at(all[pixel as usize], pixel, pass) else { continue };
                         let (radiance, seen) = self.merge_pixel(workspace, &map, pixel, pass, wavelengths, weight);
-                        splats.push(pixel, 1.0, weights, radiance);
-                        looked_at.push((pixel, seen));
+                        tile.splats.push(pixel, 1.0, weights, radiance);
+                        tile.looked_at.push((pixel, seen));
                     }
-                    (splats, looked_at, workspace.counters)
+                    MergedTile { counters: workspace.counters, ..tile }
                 },
             )
             .collect();
         let mut merged = Splats::new(weights.len());
-        for (splats, looked_at, count) in results {
-            counters.add(count);
-            merged.append(splats);
-            looked_at.into_iter().for_each(|(pixel, seen)| state.seen[pixel as usize] |= seen);
+        for tile in results {
+            counters.add(tile.counters);
+            merged.append(tile.splats);
+            tile.looked_at.into_iter().for_each(|(pixel, seen)| state.seen[pixel as usize] |= seen);
         }
         film.add_merged((pass % LIGHT_REPLICATES as u64) as usize, &merged);
         counters
