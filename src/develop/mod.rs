@@ -1,19 +1,12 @@
 //! Film → picture: exposure, tone mapping, gamut, transfer curve.
 
+mod operators;
+
+pub use operators::{TONEMAPS, Tonemap};
+
 use crate::color::{RgbSpace, srgb_encode};
 use crate::math;
 use glam::DVec3;
-
-/// Tone mapping operators.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Tonemap {
-    /// None: linear up to 1, clipped above.
-    Srgb,
-    /// 1 − exp(−x) on each channel.
-    Exponential,
-    /// Y / (1 + Y) on luminance, colour kept \[Reinhard2002\].
-    Reinhard,
-}
 
 /// A picture ready to be shown: sRGB, 8 bits a channel, row by row from the top left.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +39,7 @@ pub fn develop(xyz: &[[f64; 3]], width: u32, exposure_ev: Option<f64>, tonemap: 
             let linear = RgbSpace::srgb().rgb_from_xyz * (DVec3::from(xyz) * factor);
             let (inside, moved) = into_gamut(linear);
             outside += usize::from(moved);
-            encode(apply(tonemap, inside))
+            encode(tonemap.apply(inside))
         })
         .collect();
     let out_of_gamut = outside as f64 / xyz.len().max(1) as f64;
@@ -82,17 +75,6 @@ fn into_gamut(linear: DVec3) -> (DVec3, bool) {
     }
     let inside = DVec3::splat(luminance) + (linear - luminance) * (luminance / (luminance - lowest));
     (inside.max(DVec3::ZERO), -lowest > 1e-3 * linear.max_element())
-}
-
-fn apply(tonemap: Tonemap, linear: DVec3) -> DVec3 {
-    match tonemap {
-        Tonemap::Srgb => linear,
-        Tonemap::Exponential => linear.map(|x| 1.0 - math::exp(-x)),
-        Tonemap::Reinhard => {
-            let luminance = RgbSpace::srgb().xyz_from_rgb.row(1).dot(linear);
-            linear / (1.0 + luminance)
-        }
-    }
 }
 
 /// Too bright colours keep their hue: they are scaled to white's edge halfway between clipping and scaling.

@@ -9,9 +9,10 @@ use std::path::Path;
 /// Rooms that are there for users of the library: nothing in the crate need use all that they offer.
 const API: [&str; 8] = ["color", "math", "metrics", "optics", "project", "references", "sampling", "spectrum"];
 
-/// Public items of other rooms that are there for users although nothing outside the room uses them: the limits of what is
-/// read, and lists of names.
-const KEPT: [&str; 6] = [
+/// Public items of other rooms that are there for users although nothing outside the room uses them: a sensor's
+/// further channels, the limits of what is read, and lists of names.
+const KEPT: [&str; 7] = [
+    "film: Sensor::with_channels",
     "io: MAX_BYTES",
     "io: MAX_MESH_BYTES",
     "io: MESH_EXTENSIONS",

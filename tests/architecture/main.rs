@@ -49,8 +49,9 @@ const RULES: &[(&str, &[Grant])] = &[
         "scene::description",
         &[
             Items("color", &["Observer"]),
-            Items("develop", &["Tonemap"]),
+            Items("develop", &["TONEMAPS", "Tonemap"]),
             Items("geometry", &["implicit"]),
+            Items("io", &["spectrum_file"]),
             Items("scene", &["Integrator"]),
         ],
     ),

@@ -140,7 +140,7 @@ const EDITS: &[Edit] = &[
     ("line of width 0", "\"intensity\": 1.0", "\"intensity\": {\"line_nm\": 589.3, \"fwhm_nm\": 0}", "out_of_range", "lights[0].intensity.fwhm_nm", "> 0"),
     ("line in micrometres", "\"intensity\": 1.0", "\"intensity\": {\"line_nm\": 0.5893, \"fwhm_nm\": 0.1}", "out_of_range", "lights[0].intensity.line_nm", "589.3 nm"),
     ("emission overflows", "\"intensity\": 1.0", "\"intensity\": {\"wavelengths_nm\": [300, 900], \"values\": [1, 1e300], \"scale\": 1e300}", "out_of_range", "lights[0].intensity.values[1]", "found inf"),
-    ("spectrum file of unknown type", "\"intensity\": 1.0", "\"intensity\": {\"file\": \"lamp.xls\"}", "file_format", "lights[0].intensity.file", ".csv, .spd, .spdx"),
+    ("spectrum file of unknown type", "\"intensity\": 1.0", "\"intensity\": {\"file\": \"lamp.xls\"}", "file_format", "lights[0].intensity.file", ".csv, .txt, .tsv, .dat, .spd, .spdx, .xml"),
     // materials
     ("unknown material type", "\"diffuse\"", "\"difuse\"", "unknown_name", "materials.floor.type", "did you mean \"diffuse\"?"),
     ("later material", "\"type\": \"diffuse\"", "\"type\": \"layered\"", "unknown_name", "materials.floor.type", "\"layered\" is not the type of a material; expected \"diffuse\""),

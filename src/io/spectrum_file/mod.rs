@@ -12,6 +12,7 @@ use crate::{Error, ErrorKind, Result};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// Most samples of a spectrum.
 pub const MAX_KNOTS: usize = 1_000_000;
@@ -20,16 +21,20 @@ pub const MAX_BYTES: u64 = 64 << 20;
 /// If the longest wavelength is below this many "nm" the file is in another unit: nothing here deals with X-rays.
 const SHORTEST_LAST_NM: f64 = 100.0;
 
-/// How a file is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Format {
-    /// One wavelength a line, two columns or more.
-    Rows,
-    /// Numbers between white space, wavelength and value in turn.
-    Pairs,
-    /// XML.
-    Spdx,
+/// A way to write spectra into files.
+struct Format {
+    /// Extensions of its files, without the dot, in lower case.
+    extensions: &'static [&'static str],
+    /// Reads a file's text.
+    parse: fn(&str) -> Result<SpectrumFile>,
 }
+
+/// The formats.
+const FORMATS: [&Format; 3] = [&rows::FORMAT, &pairs::FORMAT, &spdx::FORMAT];
+
+/// Extensions of files that are read, without the dot.
+pub static EXTENSIONS: LazyLock<Vec<&str>> =
+    LazyLock::new(|| FORMATS.iter().flat_map(|format| format.extensions).copied().collect());
 
 /// What the values of a spectrum are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,22 +118,19 @@ pub fn read_all_from(reader: impl Read, name: impl AsRef<Path>) -> Result<Spectr
     let read = || {
         let text = read_limited(reader)?;
         let is_xml = text.trim_start_matches('\u{feff}').trim_start().starts_with('<');
-        parse(&text, if is_xml { Format::Spdx } else { Format::Rows })
+        parse(&text, if is_xml { &spdx::FORMAT } else { &rows::FORMAT })
     };
     read().map_err(|error| error.in_file(name))
 }
 
-fn format_of(path: &Path) -> Result<Format> {
+fn format_of(path: &Path) -> Result<&'static Format> {
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
-    match extension.as_str() {
-        "csv" | "txt" | "tsv" | "dat" => Ok(Format::Rows),
-        "spd" => Ok(Format::Pairs),
-        "spdx" | "xml" => Ok(Format::Spdx),
-        _ => {
-            let message = format!("extension {extension:?}; expected .csv, .txt, .tsv, .dat, .spd, .spdx or .xml");
-            Err(Error::new(ErrorKind::FileFormat, message))
-        }
-    }
+    let reads = |format: &&&Format| format.extensions.contains(&extension.as_str());
+    FORMATS.iter().find(reads).copied().ok_or_else(|| {
+        let (last, others) = EXTENSIONS.split_last().expect("there are formats");
+        let message = format!("extension {extension:?}; expected .{} or .{last}", others.join(", ."));
+        Error::new(ErrorKind::FileFormat, message)
+    })
 }
 
 fn read_text(path: &Path) -> Result<String> {
@@ -162,13 +164,8 @@ fn decode(bytes: Vec<u8>) -> Result<String> {
     })
 }
 
-fn parse(text: &str, format: Format) -> Result<SpectrumFile> {
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    match format {
-        Format::Rows => rows::parse(text),
-        Format::Pairs => pairs::parse(text),
-        Format::Spdx => spdx::parse(text),
-    }
+fn parse(text: &str, format: &Format) -> Result<SpectrumFile> {
+    (format.parse)(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
 /// The spectrum of a file that must have no more.
@@ -244,11 +241,11 @@ mod tests {
         <SpectralData wavelength=\"400.0\">0.034</SpectralData>\n\
         <SpectralData wavelength=\" 403.1 \"> 3.7e-2 </SpectralData>\n</SpectralDistribution></IESTM2714>\n";
 
-    fn knots(text: &str, format: Format) -> Vec<(f64, f64)> {
+    fn knots(text: &str, format: &Format) -> Vec<(f64, f64)> {
         single(parse(text, format).unwrap()).unwrap().knots().collect()
     }
 
-    fn message(text: &str, format: Format) -> String {
+    fn message(text: &str, format: &Format) -> String {
         parse(text, format).unwrap_err().to_string()
     }
 
@@ -263,10 +260,10 @@ mod tests {
             "400\t0.5\r500\t-1e-3\r",
             "  400   0.5\n 500 -1e-3",
         ] {
-            assert_eq!(knots(text, Format::Rows), expected, "{text:?}");
+            assert_eq!(knots(text, &rows::FORMAT), expected, "{text:?}");
         }
-        assert_eq!(knots("# pbrt\n400 0.5 500\n-1e-3", Format::Pairs), expected);
-        assert_eq!(knots(SPDX, Format::Spdx), [(400.0, 0.034), (403.1, 0.037)]);
+        assert_eq!(knots("# pbrt\n400 0.5 500\n-1e-3", &pairs::FORMAT), expected);
+        assert_eq!(knots(SPDX, &spdx::FORMAT), [(400.0, 0.034), (403.1, 0.037)]);
     }
 
     #[test]
@@ -297,32 +294,32 @@ mod tests {
             ("nm,value\n", "no samples; expected pairs of wavelength in nm and value"),
         ];
         for (text, expected) in rows {
-            assert_eq!(message(text, Format::Rows), expected, "{text:?}");
+            assert_eq!(message(text, &rows::FORMAT), expected, "{text:?}");
         }
         let expected = "line 2: wavelength 500 without a value; expected pairs of wavelength and value";
-        assert_eq!(message("400 1\n500", Format::Pairs), expected);
+        assert_eq!(message("400 1\n500", &pairs::FORMAT), expected);
         assert!(
-            message(&SPDX.replace("403.1", "399"), Format::Spdx).starts_with("line 7: wavelength 399 nm after 400")
+            message(&SPDX.replace("403.1", "399"), &spdx::FORMAT).starts_with("line 7: wavelength 399 nm after 400")
         );
-        assert!(message(&SPDX.replace("0.034", "x"), Format::Spdx).starts_with("line 6: \"x\"; expected a number"));
-        assert!(message(&SPDX.replace("wavelength=", "w="), Format::Spdx).contains("expected the attribute"));
-        assert!(message("<a>\n<b></a>", Format::Spdx).starts_with("line 2: not XML"));
-        assert!(message("<a/>", Format::Spdx).starts_with("no samples"));
+        assert!(message(&SPDX.replace("0.034", "x"), &spdx::FORMAT).starts_with("line 6: \"x\"; expected a number"));
+        assert!(message(&SPDX.replace("wavelength=", "w="), &spdx::FORMAT).contains("expected the attribute"));
+        assert!(message("<a>\n<b></a>", &spdx::FORMAT).starts_with("line 2: not XML"));
+        assert!(message("<a/>", &spdx::FORMAT).starts_with("no samples"));
     }
 
     #[test]
     fn many_columns_have_names_and_may_have_gaps() {
-        let file = parse("nm;dark skin;\"a;\"\"b\"\"\";\n400;1;;3\n410;2;5;4\n", Format::Rows).unwrap();
+        let file = parse("nm;dark skin;\"a;\"\"b\"\"\";\n400;1;;3\n410;2;5;4\n", &rows::FORMAT).unwrap();
         assert_eq!(
             file.spectra.iter().map(|s| s.name.as_str()).collect::<Vec<_>>(),
             ["dark skin", "a;\"b\"", "column 4"]
         );
         assert_eq!(file.spectra[1].table.knots().collect::<Vec<_>>(), [(410.0, 5.0)]);
         assert_eq!(file.spectra[2].table.knots().collect::<Vec<_>>(), [(400.0, 3.0), (410.0, 4.0)]);
-        let numbered = parse("wavelength_nm 1 2\n400 0.5 0.25", Format::Rows).unwrap();
+        let numbered = parse("wavelength_nm 1 2\n400 0.5 0.25", &rows::FORMAT).unwrap();
         assert_eq!(numbered.spectra[1].name, "2");
-        assert_eq!(parse("400 0.5 0.25", Format::Rows).unwrap().spectra[1].name, "column 3");
-        assert_eq!(parse("400 0.5", Format::Rows).unwrap().spectra[0].name, "");
+        assert_eq!(parse("400 0.5 0.25", &rows::FORMAT).unwrap().spectra[1].name, "column 3");
+        assert_eq!(parse("400 0.5", &rows::FORMAT).unwrap().spectra[0].name, "");
         let error = single(file).unwrap_err();
         assert_eq!(error.to_string(), "3 spectra; expected one (two columns)");
     }
@@ -330,13 +327,13 @@ mod tests {
     #[test]
     fn names_and_headers_say_what_the_values_are() {
         let quantity = |text: &str, format| parse(text, format).unwrap().quantity;
-        assert_eq!(quantity("nm,Reflectance\n400,1", Format::Rows), Some(Quantity::Reflectance));
-        assert_eq!(quantity("nm,transmittance,transmittance\n400,1,2", Format::Rows), Some(Quantity::Transmittance));
-        assert_eq!(quantity("nm,reflectance,transmittance\n400,1,2", Format::Rows), None);
-        assert_eq!(quantity("nm,value\n400,1", Format::Rows), None);
-        assert_eq!(quantity(SPDX, Format::Spdx), None);
-        assert_eq!(quantity(&SPDX.replace("relative", "Radiance"), Format::Spdx), Some(Quantity::Emission));
-        assert_eq!(parse(SPDX, Format::Spdx).unwrap().spectra[0].name, "lamp");
+        assert_eq!(quantity("nm,Reflectance\n400,1", &rows::FORMAT), Some(Quantity::Reflectance));
+        assert_eq!(quantity("nm,transmittance,transmittance\n400,1,2", &rows::FORMAT), Some(Quantity::Transmittance));
+        assert_eq!(quantity("nm,reflectance,transmittance\n400,1,2", &rows::FORMAT), None);
+        assert_eq!(quantity("nm,value\n400,1", &rows::FORMAT), None);
+        assert_eq!(quantity(SPDX, &spdx::FORMAT), None);
+        assert_eq!(quantity(&SPDX.replace("relative", "Radiance"), &spdx::FORMAT), Some(Quantity::Emission));
+        assert_eq!(parse(SPDX, &spdx::FORMAT).unwrap().spectra[0].name, "lamp");
     }
 
     #[test]
@@ -353,13 +350,13 @@ mod tests {
     #[test]
     fn limits_hold() {
         let rows = |count: usize| (0..count).map(|i| format!("{} 1\n", 100 + i)).collect::<String>();
-        assert_eq!(knots(&rows(MAX_KNOTS), Format::Pairs).len(), MAX_KNOTS);
-        assert_eq!(parse(&rows(MAX_KNOTS + 1), Format::Rows).unwrap_err().kind, ErrorKind::LimitExceeded);
+        assert_eq!(knots(&rows(MAX_KNOTS), &pairs::FORMAT).len(), MAX_KNOTS);
+        assert_eq!(parse(&rows(MAX_KNOTS + 1), &rows::FORMAT).unwrap_err().kind, ErrorKind::LimitExceeded);
         // Deep nesting and entities that expand to more are not followed.
         let deep = "<a>".repeat(100_000) + &"</a>".repeat(100_000);
-        assert!(parse(&deep, Format::Spdx).is_err());
+        assert!(parse(&deep, &spdx::FORMAT).is_err());
         let bomb = "<!DOCTYPE a [<!ENTITY b \"bbbbbbbb\"><!ENTITY c \"&b;&b;&b;&b;\">]><a>&c;</a>";
-        assert!(parse(bomb, Format::Spdx).is_err());
+        assert!(parse(bomb, &spdx::FORMAT).is_err());
     }
 
     #[test]
@@ -389,7 +386,7 @@ mod tests {
         #[test]
         fn any_bytes_give_a_result(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
             if let Ok(text) = decode(bytes) {
-                for format in [Format::Rows, Format::Pairs, Format::Spdx] {
+                for format in [&rows::FORMAT, &pairs::FORMAT, &spdx::FORMAT] {
                     let _ = parse(&text, format);
                 }
             }
@@ -399,7 +396,7 @@ mod tests {
         fn nearly_valid_text_gives_a_result(
             text in "([0-9.e,; \t\r\n#-]|nan|inf|µ|nm|<SpectralData wavelength=\"|\">|</SpectralData>|<a>|</a>|&){0,60}",
         ) {
-            for format in [Format::Rows, Format::Pairs, Format::Spdx] {
+            for format in [&rows::FORMAT, &pairs::FORMAT, &spdx::FORMAT] {
                 for spectrum in parse(&text, format).into_iter().flat_map(|file| file.spectra) {
                     prop_assert!(spectrum.table.lambdas_nm().windows(2).all(|l| l[0] < l[1]));
                     let _ = findings(&spectrum.table, Quantity::Reflectance);
@@ -412,7 +409,7 @@ mod tests {
             let mut lambda = 300.0;
             let samples: Vec<_> = samples.iter().map(|s| { lambda += s.0; (lambda, s.1) }).collect();
             let text: String = samples.iter().map(|(l, v)| format!("{l},{v}\n")).collect();
-            prop_assert_eq!(knots(&text, Format::Rows), samples);
+            prop_assert_eq!(knots(&text, &rows::FORMAT), samples);
         }
     }
 }

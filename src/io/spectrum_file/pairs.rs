@@ -1,9 +1,12 @@
 //! `.spd`: wavelength and value in turn, with white space between.
 
-use super::{NamedSpectrum, Samples, SpectrumFile, at_line, content_lines, number};
+use super::{Format, NamedSpectrum, Samples, SpectrumFile, at_line, content_lines, number};
 use crate::{Error, ErrorKind, Result};
 
-pub(super) fn parse(text: &str) -> Result<SpectrumFile> {
+/// Numbers between white space, wavelength and value in turn.
+pub(super) const FORMAT: Format = Format { extensions: &["spd"], parse };
+
+fn parse(text: &str) -> Result<SpectrumFile> {
     let mut samples = Samples::default();
     let mut pending = None;
     let words =

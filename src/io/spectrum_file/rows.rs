@@ -1,13 +1,16 @@
 //! `.csv` and its like: one wavelength a line, one spectrum a column.
 
-use super::{NamedSpectrum, Quantity, Samples, SpectrumFile, at_line, content_lines, number};
+use super::{Format, NamedSpectrum, Quantity, Samples, SpectrumFile, at_line, content_lines, number};
 use crate::spectrum::check_knot;
 use crate::{Error, ErrorKind, Result};
+
+/// One wavelength a line, two columns or more.
+pub(super) const FORMAT: Format = Format { extensions: &["csv", "txt", "tsv", "dat"], parse };
 
 /// Words that show a first line to be one of names even where columns are named by numbers.
 const WAVELENGTH_WORDS: [&str; 5] = ["wavelength", "lambda", "λ", "nm", "wl"];
 
-pub(super) fn parse(text: &str) -> Result<SpectrumFile> {
+fn parse(text: &str) -> Result<SpectrumFile> {
     let mut lines = content_lines(text).map(|(line, content)| (line, fields(content))).peekable();
     let header = lines.next_if(|(_, fields)| is_header(fields)).map(|(_, names)| names);
     let mut table = Table::new(header);

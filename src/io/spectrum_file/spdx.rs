@@ -1,11 +1,14 @@
 //! IES TM-27 `.spdx`, which is XML \[TM27\].
 
-use super::{NamedSpectrum, Quantity, Samples, SpectrumFile, at_line, number};
+use super::{Format, NamedSpectrum, Quantity, Samples, SpectrumFile, at_line, number};
 use crate::spectrum::PiecewiseLinear;
 use crate::{Error, ErrorKind, Result};
 use roxmltree::{Document, Node};
 
-pub(super) fn parse(text: &str) -> Result<SpectrumFile> {
+/// IES TM-27, which is XML.
+pub(super) const FORMAT: Format = Format { extensions: &["spdx", "xml"], parse };
+
+fn parse(text: &str) -> Result<SpectrumFile> {
     let document = Document::parse(text)
         .map_err(|e| at_line(e.pos().row as usize)(Error::new(ErrorKind::Syntax, format!("not XML: {e}"))))?;
     let name = text_of(document.root(), "Description").unwrap_or_default();

@@ -29,7 +29,7 @@ mod text;
 mod transform;
 mod vector;
 
-pub use crate::develop::Tonemap;
+pub use crate::develop::{TONEMAPS, Tonemap};
 pub use crate::scene::Integrator;
 pub use camera::{CameraDescription, FovAxis};
 pub use document::{ObjectDescription, SceneDescription};
@@ -41,7 +41,7 @@ pub use parse::{Parsed, parse_bytes, parse_file, parse_reader, parse_str};
 pub use reference::reference;
 pub use schema::schema;
 pub(crate) use settings::EXPOSURES_EV;
-pub use settings::{DevelopDescription, INTEGRATORS, RenderDescription, TONEMAPS};
+pub use settings::{DevelopDescription, INTEGRATORS, RenderDescription};
 pub use shapes::{BrilliantDescription, ImplicitDescription, ShapeDescription};
 pub use spectrum::{SpectrumDescription, SpectrumKind};
 pub use transform::TransformStep;

@@ -2,7 +2,7 @@
 
 use super::codec::{Choice, Integer, NumberOr, Object, Range, Record};
 use crate::Result;
-use crate::develop::Tonemap;
+use crate::develop::{TONEMAPS, Tonemap};
 use crate::scene::Integrator;
 
 /// Most samples of a pixel.
@@ -44,14 +44,6 @@ pub const INTEGRATORS: &[(&str, Integrator, &str)] = &[
     ("light", Integrator::Light, "Light paths, splatted onto the film."),
     ("merge", Integrator::Merge, "Photon merging."),
     ("hero", Integrator::Hero, "The baseline: 4 wavelengths, one kept after any dispersive hit."),
-];
-
-/// Tone mapping operators, by the names that scenes and the command line give them.
-#[rustfmt::skip] // one operator a line
-pub const TONEMAPS: &[(&str, Tonemap, &str)] = &[
-    ("srgb", Tonemap::Srgb, "None: linear up to 1, clipped above."),
-    ("exponential", Tonemap::Exponential, "1 − exp(−x) on each channel."),
-    ("reinhard", Tonemap::Reinhard, "Reinhard's global operator on luminance [Reinhard2002]."),
 ];
 
 /// Sampling options.

@@ -10,6 +10,7 @@ use super::context::{Context, Extent};
 use super::json::Json;
 use super::path::Path;
 use super::text::{quote, show};
+use crate::io::spectrum_file;
 use crate::{Error, ErrorKind, Result};
 
 /// Most knots of one table.
@@ -109,7 +110,7 @@ fn tabulated(o: &mut Object) -> Result<SpectrumKind> {
 }
 
 fn file(o: &mut Object) -> Result<SpectrumKind> {
-    let file = FileName { what: "a spectrum", extensions: &["csv", "spd", "spdx"] };
+    let file = FileName { what: "a spectrum", extensions: &spectrum_file::EXTENSIONS };
     Ok(SpectrumKind::File(o.required("file", file, "Path of a table of wavelengths in nanometres and values.")?))
 }
 
