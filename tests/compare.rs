@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use abbe::io::exr::encode_planes;
-use abbe::io::exr_read::{Preference, decode};
+use abbe::io::exr::{Preference, decode};
 use serde_json::Value;
 
 /// A folder of its own, removed at the end.

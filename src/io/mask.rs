@@ -1,6 +1,6 @@
 //! Masks: pictures whose bright pixels say which pixels count.
 
-use super::exr_read::{self, Preference};
+use super::exr::{self, Preference};
 use crate::{Error, ErrorKind, Result};
 use std::io::Cursor;
 use std::path::Path;
@@ -11,7 +11,7 @@ const MAX_BYTES: u64 = 4 << 30;
 /// Which pixels of a PNG (as they are stored, in [0, 1]) or EXR (luminance) exceed 0.5, row by row, with the width.
 ///
 /// # Errors
-/// `FileNotFound`, `FileFormat`, and those of [`exr_read::decode`], with the file.
+/// `FileNotFound`, `FileFormat`, and those of [`exr::decode`], with the file.
 pub fn read_file(path: &Path) -> Result<(u32, Vec<bool>)> {
     let bytes = std::fs::read(path).map_err(|e| {
         let message = format!("cannot be read: {e}; expected a mask, .png or .exr");
@@ -21,8 +21,8 @@ pub fn read_file(path: &Path) -> Result<(u32, Vec<bool>)> {
 }
 
 fn decode(bytes: &[u8]) -> Result<(u32, Vec<bool>)> {
-    if bytes.starts_with(&exr::meta::magic_number::BYTES) {
-        let picture = exr_read::decode(bytes, Preference::Xyz, None)?;
+    if bytes.starts_with(&::exr::meta::magic_number::BYTES) {
+        let picture = exr::decode(bytes, Preference::Xyz, None)?;
         return Ok((picture.width, picture.xyz.iter().map(|pixel| pixel[1] > 0.5).collect()));
     }
     let failed = |e: image::ImageError| {

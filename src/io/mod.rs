@@ -2,7 +2,6 @@
 
 pub mod catalogue;
 pub mod exr;
-pub mod exr_read;
 pub mod mask;
 pub mod mesh;
 mod obj;

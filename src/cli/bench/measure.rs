@@ -3,7 +3,7 @@
 use super::variant::{Kind, Variant};
 use super::{Session, work::Work};
 use crate::cli::process;
-use crate::io::exr_read::{self, Preference};
+use crate::io::exr::{self, Preference};
 use crate::render::{Phase, Progress, Rendering, render};
 use crate::scene::RenderSettings;
 use crate::{Error, ErrorKind, Result};
@@ -154,7 +154,7 @@ fn command(
         peak_memory_bytes,
         ..Run::default()
     };
-    let picture = exr_read::read_file(&out, Preference::Xyz, None)?;
+    let picture = exr::read_file(&out, Preference::Xyz, None)?;
     let found = [picture.width, picture.xyz.len() as u32 / picture.width];
     if found != [width, height] {
         let message = format!("{name} wrote {}x{} pixels; expected {width}x{height}", found[0], found[1]);

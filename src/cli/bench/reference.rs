@@ -8,7 +8,7 @@ use super::work::{Work, hash_bytes};
 use crate::cli::names::{INTEGRATORS, integrator_name, named};
 use crate::cli::usage;
 use crate::io::exr::encode_planes;
-use crate::io::exr_read::{self, Preference};
+use crate::io::exr::{self, Preference};
 use crate::io::output::write_atomically;
 use crate::metrics::{self, Pair};
 use crate::scene::{Integrator, RenderSettings};
@@ -186,7 +186,7 @@ fn from_file(work: &Work, path: &Path) -> Result<Reference> {
 }
 
 fn picture_of_size(path: &Path, work: &Work) -> Result<Image> {
-    let picture = exr_read::read_file(path, Preference::Xyz, None)?;
+    let picture = exr::read_file(path, Preference::Xyz, None)?;
     let [width, height] = work.size();
     let found = picture.xyz.len() as u32 / picture.width;
     if [picture.width, found] != [width, height] {

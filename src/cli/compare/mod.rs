@@ -6,9 +6,9 @@ use super::values::exposure;
 use super::{heat, usage, write_data};
 use crate::color::RgbSpace;
 use crate::develop::{self, Picture};
-use crate::io::exr_read::{self, Preference, ReadPicture};
+use crate::io::exr::{self, Preference, ReadPicture};
 use crate::io::output::write_atomically;
-use crate::io::{exr, mask, png};
+use crate::io::{mask, png};
 use crate::metrics::{self, Displayed, Pair, Pixel};
 use crate::{Error, ErrorKind, Result, math};
 use clap::ValueEnum;
@@ -95,7 +95,7 @@ struct Maps {
 /// Compares. The exit code is 4 if a threshold is exceeded.
 ///
 /// # Errors
-/// `Usage` for arguments that make no sense, those of [`exr_read`], and pictures that cannot be compared.
+/// `Usage` for arguments that make no sense, those of [`exr`], and pictures that cannot be compared.
 pub fn run(args: &CompareArgs) -> Result<ExitCode> {
     let thresholds = args.threshold.iter().map(|text| threshold(text)).collect::<Result<Vec<_>>>()?;
     check_outputs(args)?;
@@ -138,7 +138,7 @@ fn extension(path: &Path) -> Option<String> {
 fn read(path: &Path, preference: Preference, layer: Option<&str>) -> Result<ReadPicture> {
     let read = match is_stdin(path) {
         true => read_stdin(preference, layer),
-        false => exr_read::read_file(path, preference, layer),
+        false => exr::read_file(path, preference, layer),
     };
     read.map_err(|error| match error.kind {
         // A file of several pictures, which the message lists.
@@ -151,7 +151,7 @@ fn read_stdin(preference: Preference, layer: Option<&str>) -> Result<ReadPicture
     let mut bytes = Vec::new();
     let failed = |e: std::io::Error| Error::new(ErrorKind::Io, format!("reading stdin failed: {e}"));
     std::io::stdin().lock().read_to_end(&mut bytes).map_err(failed)?;
-    exr_read::decode(&bytes, preference, layer).map_err(|error| error.in_file("<stdin>"))
+    exr::decode(&bytes, preference, layer).map_err(|error| error.in_file("<stdin>"))
 }
 
 fn compare(args: &CompareArgs, test: &ReadPicture, reference: &ReadPicture) -> Result<(Report, Maps)> {

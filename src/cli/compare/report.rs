@@ -1,7 +1,7 @@
 //! What `abbe compare` tells, and the limits it holds it against.
 
 use super::{Channels, CompareArgs};
-use crate::io::exr_read::Source;
+use crate::io::exr::Source;
 use crate::metrics::{Bias, ColorDifference};
 use crate::{Error, ErrorKind, Result};
 use serde_json::{Value, json};

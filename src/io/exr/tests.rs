@@ -1,5 +1,8 @@
 use super::*;
-use exr::prelude::*;
+use crate::color::RgbSpace;
+use ::exr::prelude::*;
+use glam::DVec3;
+use std::io::Cursor;
 
 type ExrImage = Image<Layers<AnyChannels<FlatSamples>>>;
 

@@ -1,9 +1,19 @@
 //! Which channels of a file are its picture.
 
-use super::{Preference, spectral};
+use super::spectral;
 use crate::{Error, ErrorKind, Result};
 use exr::meta::header::Header;
 use std::collections::BTreeMap;
+
+/// Which channels to take where a file has several descriptions of the same picture.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Preference {
+    /// X, Y, Z; then the spectral layout; then R, G, B.
+    #[default]
+    Xyz,
+    /// R, G, B; then X, Y, Z; then the spectral layout.
+    Rgb,
+}
 
 /// Channels, by their index in a part.
 #[derive(Debug, Clone, PartialEq)]

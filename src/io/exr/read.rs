@@ -4,12 +4,10 @@
 //! layout of \[Fichet2021\]. Scan lines or tiles, any compression, one part or several; no deep data. The picture is what
 //! the display window shows: black where the data window does not reach, cropped where it reaches further.
 
-mod channels;
-mod spectral;
-
+use super::channels::{self, Candidate, Colors, Preference};
+use super::spectral;
 use crate::color::{RgbSpace, xyz_from_xy};
 use crate::{Error, ErrorKind, Result};
-use channels::{Candidate, Colors};
 use exr::block::UncompressedBlock;
 use exr::block::reader::ChunksReader;
 use exr::meta::MetaData;
@@ -19,16 +17,6 @@ use exr::prelude::{Vec2, f16};
 use glam::{DMat3, DVec3};
 use std::io::Cursor;
 use std::path::Path;
-
-/// Which channels to take where a file has several descriptions of the same picture.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Preference {
-    /// X, Y, Z; then the spectral layout; then R, G, B.
-    #[default]
-    Xyz,
-    /// R, G, B; then X, Y, Z; then the spectral layout.
-    Rgb,
-}
 
 /// Where a picture's values came from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -225,6 +213,3 @@ fn value(kind: SampleType, bytes: &[u8]) -> f64 {
         _ => f64::NAN,
     }
 }
-
-#[cfg(test)]
-mod tests;
