@@ -254,7 +254,7 @@ pub(crate) mod tests {
                 let place = SamplePlace { pixel: [0, 0], offset: None, replicate: i % 2, weight: 1.0 };
                 tile.add(sensor, &filter, &place, &wavelengths, radiance);
                 sensor.weights(&wavelengths, &mut weights);
-                splats.push(0, 1.0, &weights, radiance);
+                splats.push(0, &weights, radiance);
             }
             film.add_tiles(&[&tile]);
             film.camera_mut().weigh_open_stage([n as f64 / 2.0; 2], 1.0);

@@ -1,6 +1,6 @@
 //! Parts of a picture that are estimated as a whole: their errors span pixels.
 
-use super::{LIGHT_REPLICATES, Splats};
+use super::{LIGHT_REPLICATES, PICTURE_CHANNELS, Splats};
 
 /// A part of the picture that is estimated as a whole, with a sum for each replicate.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,15 +24,15 @@ impl Replicates {
         if sums.is_empty() {
             sums.resize(pixels * self.channels, 0.0);
         }
-        let mut lost = 0;
-        for (pixel, values) in splats.iter() {
-            if values.iter().all(|v| (v * weight).is_finite()) {
-                let sums = &mut sums[pixel as usize * self.channels..][..self.channels];
-                sums.iter_mut().zip(values).for_each(|(sum, v)| *sum += v * weight);
-            } else {
-                lost += 1;
+        let lost = splats.iter().filter(|(pixel, values)| {
+            let sums = &mut sums[*pixel as usize * self.channels..][..self.channels];
+            match (<&mut [f64; PICTURE_CHANNELS]>::try_from(&mut *sums), <&[f64; PICTURE_CHANNELS]>::try_from(*values))
+            {
+                (Ok(sums), Ok(values)) => !add_finite(sums, values, weight),
+                _ => !add_finite(sums, values, weight),
             }
-        }
+        });
+        let lost = lost.count() as u64;
         self.counts[replicate] += count;
         lost
     }
@@ -63,4 +63,14 @@ impl Replicates {
         let mean = used.iter().map(|&r| mean_of(r)).sum::<f64>() / n;
         used.iter().map(|&r| (mean_of(r) - mean) * (mean_of(r) - mean)).sum::<f64>() / (n * (n - 1.0))
     }
+}
+
+/// Adds values times `weight`, or none of them where one is not finite then; tells whether it has.
+#[inline(always)]
+fn add_finite(sums: &mut [f64], values: &[f64], weight: f64) -> bool {
+    let finite = values.iter().all(|v| (v * weight).is_finite());
+    if finite {
+        sums.iter_mut().zip(values).for_each(|(sum, v)| *sum += v * weight);
+    }
+    finite
 }

@@ -25,11 +25,18 @@ impl Splats {
         Self { channels: 3, pixels, values: values.into_flattened() }
     }
 
-    /// Adds `share` of some radiance to a pixel, by the sensor's weights at the path's wavelengths.
+    /// Adds some radiance to a pixel, by the sensor's weights at the path's wavelengths.
     #[inline]
-    pub fn push(&mut self, pixel: u32, share: f64, weights: &[SampledSpectrum], radiance: SampledSpectrum) {
+    pub fn push(&mut self, pixel: u32, weights: &[SampledSpectrum], radiance: SampledSpectrum) {
         self.pixels.push(pixel);
-        self.values.extend(weights.iter().map(|&weights| value(weights, radiance) * share));
+        self.values.extend(weights.iter().map(|&weights| value(weights, radiance)));
+    }
+
+    /// Adds `share` of some values to a pixel.
+    #[inline]
+    pub fn push_share(&mut self, pixel: u32, share: f64, values: &[f64]) {
+        self.pixels.push(pixel);
+        self.values.extend(values.iter().map(|value| value * share));
     }
 
     /// Adds others behind these.

@@ -99,7 +99,7 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
                     for pixel in pixels {
                         let Some(weight) = self.look_at(all[pixel as usize], pixel, pass) else { continue };
                         let (radiance, seen) = self.merge_pixel(workspace, &map, pixel, pass, wavelengths, weight);
-                        tile.splats.push(pixel, 1.0, weights, radiance);
+                        tile.splats.push(pixel, weights, radiance);
                         tile.looked_at.push((pixel, seen));
                     }
                     MergedTile { counters: workspace.counters, ..tile }

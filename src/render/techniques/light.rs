@@ -4,7 +4,7 @@ use super::camera::{camera_density, rough_camera_density};
 use super::guide::Guide;
 use super::table::{LightPathDensity, Techniques};
 use crate::bsdf::{Branching, Carried};
-use crate::film::{Filter, Sensor, Splats};
+use crate::film::{Filter, Sensor, Splats, value};
 use crate::geometry::Ray;
 use crate::render::paths::{Encounter, Place, Scattering, TransportMode, Vertex, Walk, Workspace, adjoint};
 use crate::sampling::{Draw, balance_heuristic};
@@ -223,19 +223,23 @@ pub struct Splatter<'a> {
     density: Option<LightPathDensity>,
     /// The sensor's, at the wavelengths of the path under way.
     weights: Vec<SampledSpectrum>,
+    /// Memory for the values of a contribution.
+    values: Vec<f64>,
 }
 
 impl<'a> Splatter<'a> {
     /// With no splats yet.
     pub fn new(sensor: &'a Sensor, filter: &'a Filter, techniques: &'a Techniques) -> Self {
         let splats = Splats::new(sensor.channels());
-        Self { sensor, filter, techniques, splats, start: None, density: None, weights: Vec::new() }
+        Self { sensor, filter, techniques, splats, start: None, density: None, weights: Vec::new(), values: Vec::new() }
     }
 
     fn deposit(&mut self, scene: &Scene, film: [f32; 2], radiance: SampledSpectrum) {
+        self.values.clear();
+        self.values.extend(self.weights.iter().map(|&weights| value(weights, radiance)));
         let [width, height] = scene.camera.size();
         self.filter.splat(film, width, height, |x, y, weight| {
-            self.splats.push(y * width + x, f64::from(weight), &self.weights, radiance);
+            self.splats.push_share(y * width + x, f64::from(weight), &self.values);
         });
     }
 
