@@ -77,11 +77,6 @@ pub struct DielectricChoice {
 }
 
 impl Dielectric {
-    /// Whether the boundary is optically absent: equal indices at every wavelength.
-    pub fn is_invisible(&self) -> bool {
-        self.from.eta == self.to.eta
-    }
-
     /// Whether directions of refraction depend on the wavelength.
     pub fn is_dispersive(&self) -> bool {
         self.from.dispersive || self.to.dispersive
@@ -95,28 +90,22 @@ impl Dielectric {
         let division = self.divide(&incidence, carried.lanes, carried.throughput);
         let forks = carried.forks(division.reflected);
         let aside = forks.then(|| Aside { wi: incidence.reflected(), weight: division.reflectance });
-        let choice = match forks {
+        let DielectricChoice { refracted, weight } = match forks {
             true => DielectricChoice { refracted: true, weight: division.transmittance() },
             false => division.choose(u),
         };
-        let wi = if choice.refracted {
-            self.outgoing(&incidence, carried)?
-        } else {
-            Outgoing::Shared(incidence.reflected())
-        };
-        let (weight, crosses) = (choice.weight, choice.refracted);
-        Some(BsdfSample { wi, weight, pdf: Density::Delta, crosses, odds: None, aside })
-    }
-
-    /// Where refraction sends the lanes that go on.
-    fn outgoing(&self, incidence: &Incidence, carried: &Carried) -> Option<Outgoing> {
+        // The sample is large: each kind is built where it is returned.
+        let sample = |wi| BsdfSample { wi, weight, pdf: Density::Delta, crosses: refracted, odds: None, aside };
+        if !refracted {
+            return Some(sample(Outgoing::Shared(incidence.reflected())));
+        }
         if carried.lanes != Lanes::Shared || !self.is_dispersive() {
-            let lane = carried.lanes.single().unwrap_or(0);
-            return self.refracted(incidence, lane).map(Outgoing::Shared);
+            let wi = self.refracted(&incidence, carried.lanes.single().unwrap_or(0))?;
+            return Some(sample(Outgoing::Shared(wi)));
         }
         let mut directions = [None; LANES];
-        carried.ways().for_each(|lane| directions[lane] = self.refracted(incidence, lane));
-        Some(Outgoing::PerLane(directions))
+        carried.ways().for_each(|lane| directions[lane] = self.refracted(&incidence, lane));
+        Some(sample(Outgoing::PerLane(directions)))
     }
 
     /// How flux is divided between reflection and refraction.

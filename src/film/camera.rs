@@ -5,7 +5,7 @@
 //! stays what it was, and where the picture is even there is no noise at all. A quotient of both sums would be biased.
 
 use super::tile::stride;
-use super::{CAMERA_REPLICATES, CameraTile, Xyz};
+use super::{CAMERA_REPLICATES, CameraTile, PICTURE_CHANNELS, Xyz};
 use rayon::prelude::*;
 
 /// Rows of the film that tiles are added to at a time.
@@ -19,6 +19,13 @@ struct ClosedStages {
     /// Sums over stages of weight times mean, by pixel, replicate and channel.
     sums: Vec<f64>,
     weight: f64,
+}
+
+impl ClosedStages {
+    /// Makes sums of no stage.
+    fn empty(numbers: usize) -> Self {
+        Self { sums: vec![0.0; numbers], weight: 0.0 }
+    }
 }
 
 /// Samples of a pixel in each replicate.
@@ -105,60 +112,80 @@ impl CameraPart {
 
     /// Ends a stage, which has samples in both replicates: samples from here on are another.
     pub fn close_stage(&mut self) {
-        let pixels = self.counts.len();
-        let means: Vec<f64> = (0..pixels)
-            .flat_map(|pixel| (0..CAMERA_REPLICATES).map(move |r| (pixel, r)))
-            .flat_map(|(pixel, r)| (0..self.channels).map(move |c| (pixel, r, c)))
-            .map(|(pixel, r, c)| self.open_mean(pixel, r, c))
-            .collect();
-        let closed = self.closed.get_or_insert_with(|| ClosedStages { sums: vec![0.0; means.len()], weight: 0.0 });
-        closed.sums.iter_mut().zip(means).for_each(|(sum, mean)| *sum += self.open_weight * mean);
+        let (pixels, channels) = (self.counts.len(), self.channels);
+        let mut closed =
+            self.closed.take().unwrap_or_else(|| ClosedStages::empty(pixels * CAMERA_REPLICATES * channels));
+        for (pixel, sums) in closed.sums.chunks_exact_mut(CAMERA_REPLICATES * channels).enumerate() {
+            for channel in 0..channels {
+                let means = self.open_means::<1>(pixel, channel);
+                (0..CAMERA_REPLICATES).for_each(|r| sums[r * channels + channel] += self.open_weight * means[r][0]);
+            }
+        }
         closed.weight += self.open_weight;
+        self.closed = Some(closed);
         self.sums.fill(0.0);
         self.weigh_open_stage(CameraSamples::default(), 0.0);
     }
 
-    /// Mean of a pixel's replicate in the open stage; 0 without samples.
-    fn open_mean(&self, pixel: usize, r: usize, c: usize) -> f64 {
-        let of_replicate = |r: usize| &self.sums[(pixel * CAMERA_REPLICATES + r) * (self.channels + 1)..];
-        let (weight, sum) = (|r| of_replicate(r)[0], |r| of_replicate(r)[1 + c]);
+    /// Returns the means of a pixel's replicates in the open stage, in `N` channels from `first` on; 0 without samples.
+    #[inline]
+    fn open_means<const N: usize>(&self, pixel: usize, first: usize) -> [[f64; N]; CAMERA_REPLICATES] {
+        let length = self.channels + 1;
+        let rows: [&[f64]; CAMERA_REPLICATES] =
+            std::array::from_fn(|r| &self.sums[(pixel * CAMERA_REPLICATES + r) * length..][..length]);
+        let (weights, sums) = (rows.map(|row| row[0]), rows.map(|row| channels_of::<N>(row, 1 + first)));
         let samples = self.open_samples;
-        let (n, other) = (samples[r], 1 - r);
-        if n == 0.0 {
-            return 0.0;
-        }
-        // Without another replicate there is only the brightness that this one has found.
-        let by = if samples[other] > 0.0 { other } else { r };
-        let brightness = if weight(by) > 0.0 { sum(by) / weight(by) } else { 0.0 };
-        (sum(r) - brightness * (weight(r) - n)) / n
+        std::array::from_fn(|r| {
+            let (n, other) = (samples[r], 1 - r);
+            if n == 0.0 {
+                return [0.0; N];
+            }
+            // Without another replicate there is only the brightness that this one has found.
+            let by = if samples[other] > 0.0 { other } else { r };
+            let brightness = |c: usize| if weights[by] > 0.0 { sums[by][c] / weights[by] } else { 0.0 };
+            std::array::from_fn(|c| (sums[r][c] - brightness(c) * (weights[r] - n)) / n)
+        })
     }
 
-    /// What closed stages gave in a pixel's replicate, times their weight.
-    fn closed_sum(&self, closed: &ClosedStages, pixel: usize, r: usize, c: usize) -> f64 {
-        closed.sums[(pixel * CAMERA_REPLICATES + r) * self.channels + c]
-    }
-
-    /// Mean of a pixel's camera samples in one channel.
-    pub(super) fn mean(&self, pixel: usize, c: usize) -> f64 {
-        let samples = self.open_samples;
+    /// Returns the mean of a pixel's camera samples in `N` channels from `first` on.
+    pub(super) fn mean<const N: usize>(&self, pixel: usize, first: usize) -> [f64; N] {
+        let (means, samples) = (self.open_means::<N>(pixel, first), self.open_samples);
         let taken: f64 = samples.iter().sum();
-        let sum: f64 = (0..CAMERA_REPLICATES).map(|r| samples[r] * self.open_mean(pixel, r, c)).sum();
-        let open = if taken > 0.0 { sum / taken } else { 0.0 };
-        let Some(closed) = &self.closed else { return open };
+        let open = |c: usize| {
+            let sum: f64 = means.iter().zip(samples).map(|(mean, samples)| samples * mean[c]).sum();
+            if taken > 0.0 { sum / taken } else { 0.0 }
+        };
+        let Some(closed) = &self.closed else { return std::array::from_fn(open) };
         let weight = if taken > 0.0 { self.open_weight } else { 0.0 };
-        let before: f64 = (0..CAMERA_REPLICATES).map(|r| self.closed_sum(closed, pixel, r, c)).sum();
-        (before / CAMERA_REPLICATES as f64 + weight * open) / (closed.weight + weight)
+        let sums = self.closed_sums::<N>(closed, pixel, first);
+        let before = |c: usize| sums.iter().map(|sums| sums[c]).sum::<f64>() / CAMERA_REPLICATES as f64;
+        std::array::from_fn(|c| (before(c) + weight * open(c)) / (closed.weight + weight))
     }
 
-    /// Means of a pixel's replicates in one channel; `None` while one has no samples.
-    pub(super) fn replicates(&self, pixel: usize, c: usize) -> Option<[f64; CAMERA_REPLICATES]> {
-        let samples = self.open_samples;
-        let open = |r: usize| self.open_mean(pixel, r, c);
-        let Some(closed) = &self.closed else { return (!samples.contains(&0.0)).then(|| std::array::from_fn(open)) };
+    /// Returns the means of a pixel's replicates in `N` channels from `first` on; `None` while one has no samples.
+    pub(super) fn replicates<const N: usize>(
+        &self,
+        pixel: usize,
+        first: usize,
+    ) -> Option<[[f64; N]; CAMERA_REPLICATES]> {
+        let (open, samples) = (self.open_means::<N>(pixel, first), self.open_samples);
+        let Some(closed) = &self.closed else { return (!samples.contains(&0.0)).then_some(open) };
+        let sums = self.closed_sums::<N>(closed, pixel, first);
         Some(std::array::from_fn(|r| {
             let weight = if samples[r] > 0.0 { self.open_weight } else { 0.0 };
-            (self.closed_sum(closed, pixel, r, c) + weight * open(r)) / (closed.weight + weight)
+            std::array::from_fn(|c| (sums[r][c] + weight * open[r][c]) / (closed.weight + weight))
         }))
+    }
+
+    /// Returns what closed stages gave in a pixel's replicates, times their weight.
+    fn closed_sums<'c, const N: usize>(
+        &self,
+        closed: &'c ClosedStages,
+        pixel: usize,
+        first: usize,
+    ) -> [&'c [f64; N]; CAMERA_REPLICATES] {
+        let row = &closed.sums[pixel * CAMERA_REPLICATES * self.channels..];
+        std::array::from_fn(|r| channels_of(row, r * self.channels + first))
     }
 
     /// Whether an error can be told: either there are no samples, or there are in both replicates.
@@ -166,8 +193,15 @@ impl CameraPart {
         self.closed.is_some() || self.open_samples == [0.0, 0.0] || !self.open_samples.contains(&0.0)
     }
 
-    /// Variance of the mean of a pixel's samples in the channels of the picture, from two replicates; 0 without samples.
+    /// Returns the variance of the mean of a pixel's samples in the channels of the picture, from two replicates; 0 without
+    /// samples.
     pub(super) fn variance(&self, pixel: usize) -> Xyz {
-        std::array::from_fn(|c| self.replicates(pixel, c).map_or(0.0, |[a, b]| 0.25 * (a - b) * (a - b)))
+        let Some([a, b]) = self.replicates::<PICTURE_CHANNELS>(pixel, 0) else { return [0.0; PICTURE_CHANNELS] };
+        std::array::from_fn(|c| 0.25 * (a[c] - b[c]) * (a[c] - b[c]))
     }
+}
+
+/// Returns `N` entries of a row from `first` on.
+fn channels_of<const N: usize>(row: &[f64], first: usize) -> &[f64; N] {
+    row[first..].first_chunk().expect("a row holds all channels of the film")
 }

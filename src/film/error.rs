@@ -118,7 +118,8 @@ impl Film {
     /// Variance of the camera part of each pixel relative to its brightness: the sum over channels.
     pub fn relative_camera_variances(&self) -> Vec<f64> {
         let scales = self.relative_scales().into_iter().enumerate();
-        scales.map(|(pixel, scale)| (0..3).map(|c| scale[c] * self.camera.variance(pixel)[c]).sum()).collect()
+        let sum = |scale: Xyz, variance: Xyz| (0..3).map(|c| scale[c] * variance[c]).sum();
+        scales.map(|(pixel, scale)| sum(scale, self.camera.variance(pixel))).collect()
     }
 
     /// The replicates of light paths and of merging that have samples; `None` if an error cannot be told from them.
@@ -134,10 +135,10 @@ impl Film {
         let image = self.to_xyz();
         let mean = image.iter().flatten().sum::<f64>() / (3 * image.len()) as f64;
         let of_pixel = |(pixel, xyz): (usize, &Xyz)| {
+            let of_camera: Xyz = self.camera.mean(pixel, 0);
+            let [a, b] = self.camera.replicates(pixel, 0).unwrap_or([of_camera; CAMERA_REPLICATES]);
             std::array::from_fn(|c| {
-                let of_camera = self.camera.mean(pixel, c);
-                let [a, b] = self.camera.replicates(pixel, c).unwrap_or([of_camera; CAMERA_REPLICATES]);
-                let found_twice = xyz[c] - self.scale * (of_camera - a.min(b));
+                let found_twice = xyz[c] - self.scale * (of_camera[c] - a[c].min(b[c]));
                 let brightness = (xyz[c] * found_twice).max(0.0) + 0.01 * mean * mean;
                 self.scale * self.scale / brightness.max(f64::MIN_POSITIVE)
             })

@@ -16,7 +16,7 @@ pub use camera::{CameraPart, CameraSamples};
 pub use error::{ErrorParts, PartError, Parts};
 pub use filter::Filter;
 pub use sensor::{PICTURE_CHANNELS, Sensor, value};
-pub use splats::Splats;
+pub use splats::{Share, Splats};
 pub use tile::{CameraTile, SamplePlace};
 
 use replicates::Replicates;
@@ -140,8 +140,17 @@ impl Film {
     /// Value of a pixel in one channel: the mean of its camera samples plus the means over light paths and over passes of
     /// merging.
     pub fn value(&self, pixel: usize, channel: usize) -> f64 {
-        let light = self.light.mean(pixel, channel);
-        self.scale * (self.camera.mean(pixel, channel) + light + self.merged.mean(pixel, channel))
+        let [value] = self.values(pixel, channel);
+        value
+    }
+
+    /// Returns the values of a pixel in `N` channels from `first` on.
+    fn values<const N: usize>(&self, pixel: usize, first: usize) -> [f64; N] {
+        let camera = self.camera.mean::<N>(pixel, first);
+        std::array::from_fn(|c| {
+            let light = self.light.mean(pixel, first + c);
+            self.scale * (camera[c] + light + self.merged.mean(pixel, first + c))
+        })
     }
 
     /// How many channels there are.
@@ -151,7 +160,7 @@ impl Film {
 
     /// XYZ of a pixel.
     pub fn xyz(&self, pixel: usize) -> Xyz {
-        std::array::from_fn(|c| self.value(pixel, c))
+        self.values(pixel, 0)
     }
 
     /// All pixels, row by row.
@@ -254,7 +263,8 @@ pub(crate) mod tests {
                 let place = SamplePlace { pixel: [0, 0], offset: None, replicate: i % 2, weight: 1.0 };
                 tile.add(sensor, &filter, &place, &wavelengths, radiance);
                 sensor.weights(&wavelengths, &mut weights);
-                splats.push(0, &weights, radiance);
+                splats.begin(&weights, radiance);
+                splats.share(0, 1.0);
             }
             film.add_tiles(&[&tile]);
             film.camera_mut().weigh_open_stage([n as f64 / 2.0; 2], 1.0);

@@ -1,5 +1,6 @@
 //! Parts of a picture that are estimated as a whole: their errors span pixels.
 
+use super::splats::Share;
 use super::{LIGHT_REPLICATES, PICTURE_CHANNELS, Splats};
 
 /// A part of the picture that is estimated as a whole, with a sum for each replicate.
@@ -18,22 +19,25 @@ impl Replicates {
         Self { channels, sums: Default::default(), counts: Default::default() }
     }
 
-    /// Adds splats, each times `weight`, and to the count. Returns how many were not finite, and left out.
+    /// Adds contributions, each times `weight`, and to the count. Returns how many values were not finite, and left out.
     pub fn add(&mut self, pixels: usize, replicate: usize, count: f64, weight: f64, splats: &Splats) -> u64 {
+        let channels = self.channels;
         let sums = &mut self.sums[replicate];
         if sums.is_empty() {
-            sums.resize(pixels * self.channels, 0.0);
+            sums.resize(pixels * channels, 0.0);
         }
-        let lost = splats.iter().filter(|(pixel, values)| {
-            let sums = &mut sums[*pixel as usize * self.channels..][..self.channels];
-            match (<&mut [f64; PICTURE_CHANNELS]>::try_from(&mut *sums), <&[f64; PICTURE_CHANNELS]>::try_from(*values))
-            {
-                (Ok(sums), Ok(values)) => !add_finite(sums, values, weight),
-                _ => !add_finite(sums, values, weight),
-            }
-        });
-        let lost = lost.count() as u64;
         self.counts[replicate] += count;
+        let mut lost = 0;
+        for (values, shares) in splats.iter() {
+            if !values.iter().all(|value| value.is_finite()) {
+                lost += shares.len() as u64;
+                continue;
+            }
+            match <[f64; PICTURE_CHANNELS]>::try_from(values) {
+                Ok(values) => add_shares(sums, &values, shares, weight),
+                Err(_) => add_shares(sums, values, shares, weight),
+            }
+        }
         lost
     }
 
@@ -47,10 +51,14 @@ impl Replicates {
         (0..LIGHT_REPLICATES).filter(|&r| self.counts[r] > 0.0).collect()
     }
 
+    /// Mean over all that has been counted, in a channel of a pixel; 0 if nothing has been.
     pub fn mean(&self, pixel: usize, channel: usize) -> f64 {
-        let sum: f64 = self.sums.iter().filter(|s| !s.is_empty()).map(|s| s[pixel * self.channels + channel]).sum();
         let count: f64 = self.counts.iter().sum();
-        if count > 0.0 { sum / count } else { 0.0 }
+        if count == 0.0 {
+            return 0.0;
+        }
+        let sum: f64 = self.sums.iter().filter(|s| !s.is_empty()).map(|s| s[pixel * self.channels + channel]).sum();
+        sum / count
     }
 
     /// Variance of the mean in one channel of a pixel.
@@ -65,12 +73,12 @@ impl Replicates {
     }
 }
 
-/// Adds values times `weight`, or none of them where one is not finite then; tells whether it has.
+/// Adds the shares of a contribution. The number of its values is known to the compiler where they come as an array.
 #[inline(always)]
-fn add_finite(sums: &mut [f64], values: &[f64], weight: f64) -> bool {
-    let finite = values.iter().all(|v| (v * weight).is_finite());
-    if finite {
-        sums.iter_mut().zip(values).for_each(|(sum, v)| *sum += v * weight);
+fn add_shares(sums: &mut [f64], values: &(impl AsRef<[f64]> + ?Sized), shares: &[Share], weight: f64) {
+    let values = values.as_ref();
+    for &Share { pixel, share } in shares {
+        let sums = &mut sums[pixel as usize * values.len()..][..values.len()];
+        sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += value * f64::from(share) * weight);
     }
-    finite
 }

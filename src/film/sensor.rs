@@ -3,21 +3,21 @@
 use super::Xyz;
 use crate::color::Observer;
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, LANES, SampledSpectrum, Wavelengths};
+use wide::f32x4;
 
 /// Channels that the picture is made of and that errors are judged by: an observer's X, Y and Z come first in every sensor.
 pub const PICTURE_CHANNELS: usize = 3;
 
-/// Entries of a row of curves are padded to a multiple of this.
-const ROW: usize = 4;
+/// Channels that are computed at once. The last group of a wavelength is filled up with zeros.
+const GROUP: usize = 4;
 
 /// What a film records: an observer's X, Y and Z, and any further channels, each the integral of radiance with a response
 /// curve. X = ∫ L x̄ dλ / ∫ ȳ dλ, so that a radiance of 1 everywhere gives Y = 1.
 #[derive(Debug, Clone)]
 pub struct Sensor {
-    /// Response curves at `first_nm`, `first_nm` + 1, …: rows of `stride` entries, of which `channels` are used.
-    curves: Vec<f32>,
+    /// Response curves at `first_nm`, `first_nm` + 1, …: for each wavelength the responses of all channels, in groups.
+    curves: Vec<[f32; GROUP]>,
     channels: usize,
-    stride: usize,
     first_nm: f32,
     name: &'static str,
 }
@@ -34,23 +34,29 @@ impl Sensor {
     pub fn new(first_nm: f64, matching: &[Xyz]) -> Self {
         let y: f64 = matching.windows(2).map(|w| 0.5 * (w[0][1] + w[1][1])).sum();
         let normalised = |m: &Xyz| [(m[0] / y) as f32, (m[1] / y) as f32, (m[2] / y) as f32, 0.0];
-        let curves = matching.iter().flat_map(normalised).collect();
-        Self { curves, channels: PICTURE_CHANNELS, stride: ROW, first_nm: first_nm as f32, name: "" }
+        let curves = matching.iter().map(normalised).collect();
+        Self { curves, channels: PICTURE_CHANNELS, first_nm: first_nm as f32, name: "" }
     }
 
     /// Adds channels after those that there are. `response(channel, nm)` is the factor of radiance under the integral over
     /// wavelength in nm; it is read at 1 nm steps and linear in between.
     pub fn with_channels(mut self, added: usize, response: impl Fn(usize, f64) -> f64) -> Self {
-        let (channels, stride) = (self.channels + added, (self.channels + added).next_multiple_of(ROW));
-        let mut curves = Vec::with_capacity(self.curves.len() / self.stride * stride);
-        for (step, row) in self.curves.chunks_exact(self.stride).enumerate() {
+        let channels = self.channels + added;
+        let of_wavelength = |(step, groups): (usize, &[[f32; GROUP]])| {
             let nm = f64::from(self.first_nm) + step as f64;
-            curves.extend_from_slice(&row[..self.channels]);
-            curves.extend((0..added).map(|channel| response(channel, nm) as f32));
-            curves.resize((step + 1) * stride, 0.0);
-        }
-        (self.curves, self.channels, self.stride) = (curves, channels, stride);
+            let mut responses = groups.as_flattened()[..self.channels].to_vec();
+            responses.extend((0..added).map(|channel| response(channel, nm) as f32));
+            responses.resize(channels.next_multiple_of(GROUP), 0.0);
+            responses
+        };
+        let responses: Vec<f32> = self.curves.chunks_exact(self.groups()).enumerate().flat_map(of_wavelength).collect();
+        self.curves = responses.as_chunks().0.to_vec();
+        self.channels = channels;
         self
+    }
+
+    fn groups(&self) -> usize {
+        self.channels.div_ceil(GROUP)
     }
 
     /// How many channels there are.
@@ -64,30 +70,40 @@ impl Sensor {
     }
 
     /// Computes the factor of each lane's radiance in each channel: response / (8 pdf).
+    #[inline]
     pub fn weights(&self, wavelengths: &Wavelengths, weights: &mut Vec<SampledSpectrum>) {
         weights.resize(self.channels, SampledSpectrum::ZERO);
-        match <&mut [SampledSpectrum; PICTURE_CHANNELS]>::try_from(weights.as_mut_slice()) {
-            Ok(weights) => self.fill_weights(wavelengths, weights),
-            Err(_) => self.fill_weights(wavelengths, weights),
+        match self.groups() {
+            1 => self.fill_weights::<1>(1, wavelengths, weights),
+            groups => self.fill_weights::<0>(groups, wavelengths, weights),
         }
     }
 
-    /// Its length is known to the compiler where there are as many channels as the picture has.
+    /// `GROUPS` is the number of groups of channels if the compiler is to know it, else 0.
     #[inline(always)]
-    fn fill_weights(&self, wavelengths: &Wavelengths, weights: &mut (impl AsMut<[SampledSpectrum]> + ?Sized)) {
-        let rows = self.curves.len() / self.stride;
-        let mut at = [(0, 0.0, 0.0); LANES];
-        for (k, (lambda_nm, pdf)) in wavelengths.lambda_nm.into_iter().zip(wavelengths.pdf).enumerate() {
-            let x = (lambda_nm - self.first_nm).clamp(0.0, (rows - 1) as f32);
-            let i = (x as usize).min(rows - 2);
-            at[k] = (i * self.stride, x - i as f32, 1.0 / (LANES as f32 * pdf));
-        }
-        for (c, weight) in weights.as_mut().iter_mut().enumerate() {
-            *weight = SampledSpectrum::from_fn(|k| {
-                let (row, t, share) = at[k];
-                let (a, b) = (self.curves[row + c], self.curves[row + self.stride + c]);
-                (a + (b - a) * t) * share
-            });
+    fn fill_weights<const GROUPS: usize>(
+        &self,
+        groups: usize,
+        wavelengths: &Wavelengths,
+        weights: &mut [SampledSpectrum],
+    ) {
+        let groups = if GROUPS > 0 { GROUPS } else { groups };
+        let rows = self.curves.len() / groups;
+        let shares = wavelengths.pdf.map(|pdf| 1.0 / (LANES as f32 * pdf));
+        for (group, weights) in weights.chunks_mut(GROUP).enumerate() {
+            let responses = |k: usize| {
+                let x = (wavelengths.lambda_nm[k] - self.first_nm).clamp(0.0, (rows - 1) as f32);
+                let i = (x as usize).min(rows - 2);
+                let below = f32x4::from(self.curves[i * groups + group]);
+                let above = f32x4::from(self.curves[(i + 1) * groups + group]);
+                (below + (above - below) * (x - i as f32)) * shares[k]
+            };
+            let halves = [0, GROUP].map(|first| f32x4::transpose(std::array::from_fn(|k| responses(first + k))));
+            for (c, weight) in weights.iter_mut().enumerate() {
+                *weight = SampledSpectrum::new(
+                    *halves.map(|half| half[c].to_array()).as_flattened().first_chunk().expect("eight lanes"),
+                );
+            }
         }
     }
 }

@@ -3,57 +3,79 @@
 use super::sensor::value;
 use crate::spectrum::SampledSpectrum;
 
-/// Values that pixels get, in their order.
+/// Contributions in the order in which they were found. Each has a value in every channel, and the pixels that the filter
+/// reaches from where it falls on the film get shares of that.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Splats {
     channels: usize,
-    /// Row-major pixel indices.
-    pixels: Vec<u32>,
-    /// Values by splat and channel, already weighted by filter and wavelength density.
+    /// Values by contribution and channel, already weighted by wavelength density.
     values: Vec<f64>,
+    /// The shares of all contributions, one contribution after the other.
+    shares: Vec<Share>,
+    /// Where each contribution's shares begin.
+    starts: Vec<usize>,
+}
+
+/// What a pixel gets of a contribution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// Row-major index of the pixel.
+    pub pixel: u32,
+    /// Factor of the contribution's values.
+    pub share: f32,
 }
 
 impl Splats {
-    /// None yet, in so many channels.
+    /// Makes room for contributions in so many channels.
     pub fn new(channels: usize) -> Self {
         Self { channels, ..Self::default() }
     }
 
-    /// Splats of three channels whose values are known.
+    /// Makes contributions of three channels whose values are known, each to one pixel.
     pub fn of(splats: &[(u32, [f64; 3])]) -> Self {
-        let (pixels, values): (Vec<u32>, Vec<[f64; 3]>) = splats.iter().copied().unzip();
-        Self { channels: 3, pixels, values: values.into_flattened() }
+        let mut made = Self::new(3);
+        for (pixel, values) in splats {
+            made.starts.push(made.shares.len());
+            made.values.extend(values);
+            made.share(*pixel, 1.0);
+        }
+        made
     }
 
-    /// Adds some radiance to a pixel, by the sensor's weights at the path's wavelengths.
+    /// Adds a contribution of some radiance, by the sensor's weights at the path's wavelengths. [`Self::share`] tells who
+    /// gets it.
     #[inline]
-    pub fn push(&mut self, pixel: u32, weights: &[SampledSpectrum], radiance: SampledSpectrum) {
-        self.pixels.push(pixel);
+    pub fn begin(&mut self, weights: &[SampledSpectrum], radiance: SampledSpectrum) {
+        self.starts.push(self.shares.len());
         self.values.extend(weights.iter().map(|&weights| value(weights, radiance)));
     }
 
-    /// Adds `share` of some values to a pixel.
+    /// Gives a pixel a share of the last contribution.
     #[inline]
-    pub fn push_share(&mut self, pixel: u32, share: f64, values: &[f64]) {
-        self.pixels.push(pixel);
-        self.values.extend(values.iter().map(|value| value * share));
+    pub fn share(&mut self, pixel: u32, share: f32) {
+        self.shares.push(Share { pixel, share });
     }
 
     /// Adds others behind these.
     pub fn append(&mut self, mut others: Self) {
         debug_assert_eq!(self.channels, others.channels);
-        self.pixels.append(&mut others.pixels);
+        let before = self.shares.len();
+        self.starts.extend(others.starts.iter().map(|start| before + start));
+        self.shares.append(&mut others.shares);
         self.values.append(&mut others.values);
     }
 
-    /// Forgets all, and keeps the memory.
+    /// Forgets all contributions, and keeps the memory.
     pub fn clear(&mut self) {
-        self.pixels.clear();
+        self.starts.clear();
+        self.shares.clear();
         self.values.clear();
     }
 
-    /// Each pixel with its values.
-    pub fn iter(&self) -> impl Iterator<Item = (u32, &[f64])> {
-        self.pixels.iter().copied().zip(self.values.chunks_exact(self.channels.max(1)))
+    /// Lists the contributions: the values of each and their shares.
+    pub fn iter(&self) -> impl Iterator<Item = (&[f64], &[Share])> {
+        let ends = self.starts.iter().skip(1).copied().chain([self.shares.len()]);
+        let shares = self.starts.iter().zip(ends).map(|(&start, end)| &self.shares[start..end]);
+        self.values.chunks_exact(self.channels.max(1)).zip(shares)
     }
 }

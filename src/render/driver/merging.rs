@@ -3,13 +3,14 @@
 use super::passes::{CameraStart, tile_pixels, tiles};
 use super::renderer::Renderer;
 use super::streams::{Stream, render_seed};
-use crate::bsdf::{Branching, Indices, Parting};
+use crate::bsdf::{Branching, Parting};
 use crate::film::{Film, LIGHT_REPLICATES, Splats};
 use crate::render::paths::{Counters, Place, Vertex, Walk, Workspace};
 use crate::render::techniques::{
     LightTracer, Merging, Photon, PhotonCollector, PhotonMap, follow_specular, radiance_ratio,
 };
 use crate::sampling::mix;
+use crate::scene::MediumId;
 use crate::spectrum::{SampledSpectrum, Wavelengths};
 use rayon::prelude::*;
 
@@ -99,7 +100,8 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
                     for pixel in pixels {
                         let Some(weight) = self.look_at(all[pixel as usize], pixel, pass) else { continue };
                         let (radiance, seen) = self.merge_pixel(workspace, &map, pixel, pass, wavelengths, weight);
-                        tile.splats.push(pixel, weights, radiance);
+                        tile.splats.begin(weights, radiance);
+                        tile.splats.share(pixel, 1.0);
                         tile.looked_at.push((pixel, seen));
                     }
                     MergedTile { counters: workspace.counters, ..tile }
@@ -173,11 +175,11 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
     ) -> (SampledSpectrum, bool) {
         let (mut radiance, mut seen) = (SampledSpectrum::ZERO, false);
         let max_depth = self.settings.max_depth;
-        self.eye_path(workspace, pixel, pass, wavelengths, &mut |walk, vertex, camera_indices| {
+        self.eye_path(workspace, pixel, pass, wavelengths, &mut |walk, vertex, camera_medium| {
             seen = true;
             let gathered = map.gather(vertex, walk, max_depth);
             if !gathered.is_zero() {
-                let ratio = radiance_ratio::<INTERIORS>(walk, camera_indices);
+                let ratio = radiance_ratio::<INTERIORS>(walk, camera_medium);
                 radiance += gathered * walk.carried.throughput * ratio * weight;
             }
         });
@@ -191,7 +193,7 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
         pixel: u32,
         pass: u64,
         wavelengths: Wavelengths,
-        visit: &mut impl FnMut(&mut Walk, &Vertex, &Option<Indices>),
+        visit: &mut impl FnMut(&mut Walk, &Vertex, Option<MediumId>),
     ) {
         let sobol = Stream::Eye { pixel }.sequence(render_seed(self.settings.seed));
         let place = Place { sobol, index: pass };
@@ -199,9 +201,9 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
         let (at, offset) = (self.column_and_row(pixel), self.offset_by_filter(u));
         let start = CameraStart { pixel: at, offset, wavelengths, u };
         let mut walk = self.camera_walk(workspace, start, self.plan.camera, place);
-        let camera_indices = if INTERIORS { Some(walk.medium_indices()) } else { None };
+        let camera_medium = if INTERIORS { walk.medium() } else { None };
         let (techniques, max_depth) = (&self.plan.techniques, self.settings.max_depth);
-        let mut visit = |walk: &mut Walk, vertex: &Vertex| visit(walk, vertex, &camera_indices);
+        let mut visit = |walk: &mut Walk, vertex: &Vertex| visit(walk, vertex, camera_medium);
         follow_specular::<INTERIORS>(&mut walk, techniques, max_depth, &mut visit);
         while walk.resume() {
             follow_specular::<INTERIORS>(&mut walk, techniques, max_depth, &mut visit);

@@ -176,8 +176,12 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
                             let place = Place { sobol, index };
                             tracer.trace::<INTERIORS>(workspace, place, None, &mut splatter);
                             let (light, numbers) = splatter.start?;
-                            let picture = |values: &[f64]| std::array::from_fn(|c| values[c]);
-                            let hits = splatter.splats.iter().map(|(pixel, values)| (pixel, picture(values))).collect();
+                            let hits = splatter.splats.iter().flat_map(|(values, shares)| {
+                                shares
+                                    .iter()
+                                    .map(|s| (s.pixel, std::array::from_fn(|c| values[c] * f64::from(s.share))))
+                            });
+                            let hits = hits.collect();
                             splatter.splats.clear();
                             Some(LightTrialPath { light, numbers, hits })
                         })

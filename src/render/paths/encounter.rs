@@ -29,18 +29,20 @@ impl Walk<'_> {
             if from == to {
                 return self.pass(surface, entered);
             }
-            let boundary = Dielectric { from: spectra.indices(self.scene, from), to: spectra.indices(self.scene, to) };
-            if boundary.is_invisible() {
+            let [from, to] = spectra.both_indices(self.scene, [from, to]);
+            // The boundary is optically absent.
+            if from.eta == to.eta {
                 return self.pass(surface, entered);
             }
-            if self.carried.parting == Parting::Terminate && boundary.is_dispersive() {
+            if self.carried.parting == Parting::Terminate && (from.dispersive || to.dispersive) {
                 self.carried.leave_to_hero();
             }
             let frame = turned(surface, surface.geometric.dot(self.ray.direction.as_dvec3()) >= 0.0);
             if alpha == 0.0 {
-                let bsdf = Bsdf::Dielectric(boundary);
+                let bsdf = Bsdf::Dielectric(Dielectric { from: *from, to: *to });
                 return Encounter::Vertex(Vertex { surface, bsdf, frame, wo, focuses, entered });
             }
+            let boundary = Dielectric { from: *from, to: *to };
             let bsdf = self.rough_dielectric(boundary, Ggx::new(alpha), &frame, wo);
             return Encounter::Vertex(Vertex { surface, bsdf, frame, wo, focuses, entered });
         }

@@ -31,7 +31,7 @@ pub struct VertexNumbers {
 
 impl VertexNumbers {
     /// Deals out a group of the sequence.
-    #[inline]
+    #[inline(always)]
     pub fn new(layout: Layout, u: [f32; DIMENSIONS]) -> Self {
         let (direction, connection) = ([u[0], u[1]], [u[4], u[5]]);
         match layout {

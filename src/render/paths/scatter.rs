@@ -14,19 +14,21 @@ impl Walk<'_> {
     /// Scatters the path at a vertex.
     #[inline]
     pub fn scatter(&mut self, vertex: &Vertex, numbers: &VertexNumbers) -> Scattering {
-        let &Vertex { surface, ref bsdf, frame, wo, .. } = vertex;
+        let &Vertex { surface, ref bsdf, ref frame, wo, .. } = vertex;
         // Weights against other techniques are functions of the path up to here: behind it no path forks.
         if !bsdf.is_specular() {
             self.carried.least_share = NEVER;
         }
+        let without_shading;
         let frame = match self.mode {
             TransportMode::Radiance => frame,
             TransportMode::Importance => {
-                self.carried.throughput *= adjoint(&frame, wo);
-                frame.without_shading()
+                self.carried.throughput *= adjoint(frame, wo);
+                without_shading = frame.without_shading();
+                &without_shading
             }
         };
-        let sample = bsdf.sample(&frame, wo, &self.carried, numbers.direction, numbers.choice);
+        let sample = bsdf.sample(frame, wo, &self.carried, numbers.direction, numbers.choice);
         let Some(sample) = &sample else { return Scattering::Ended };
         if let Some(aside) = &sample.aside {
             self.put_aside(surface.spawn(aside.wi), aside.weight);

@@ -4,6 +4,8 @@ use crate::bsdf::Indices;
 use crate::scene::{MediumId, Parameter, Scene, SpectrumId};
 use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
 
+static AIR: Indices = Indices::AIR;
+
 /// Spectra and indices of refraction at a path's wavelengths, evaluated when first asked for.
 #[derive(Debug)]
 pub struct SpectralCache {
@@ -52,20 +54,37 @@ impl SpectralCache {
 
     /// Returns the indices of a medium at the path's wavelengths; `None` is air.
     #[inline]
-    pub fn indices(&mut self, scene: &Scene, medium: Option<MediumId>) -> Indices {
-        let Some(id) = medium else { return Indices::AIR };
+    pub fn indices(&mut self, scene: &Scene, medium: Option<MediumId>) -> &Indices {
+        self.evaluate(scene, medium);
+        self.evaluated(medium)
+    }
+
+    /// Returns the indices of two media at the path's wavelengths; `None` is air.
+    #[inline]
+    pub fn both_indices(&mut self, scene: &Scene, media: [Option<MediumId>; 2]) -> [&Indices; 2] {
+        media.into_iter().for_each(|medium| self.evaluate(scene, medium));
+        media.map(|medium| self.evaluated(medium))
+    }
+
+    #[inline]
+    fn evaluate(&mut self, scene: &Scene, medium: Option<MediumId>) {
+        let Some(id) = medium else { return };
         let (path, value) = &mut self.media[id.0 as usize];
-        if *path != self.path {
-            *path = self.path;
-            let medium = &scene.media[id.0 as usize];
-            let dispersive = medium.dispersive;
-            value.dispersive = dispersive;
-            if dispersive {
-                value.eta = self.wavelengths.lambda_nm.map(|lambda| medium.ior.eval(f64::from(lambda)));
-            } else {
-                value.eta = [medium.ior.eval(f64::from(self.wavelengths.lambda_nm[0])); LANES];
-            }
+        if *path == self.path {
+            return;
         }
-        *value
+        *path = self.path;
+        let medium = &scene.media[id.0 as usize];
+        value.dispersive = medium.dispersive;
+        if medium.dispersive {
+            value.eta = self.wavelengths.lambda_nm.map(|lambda| medium.ior.eval(f64::from(lambda)));
+        } else {
+            value.eta = [medium.ior.eval(f64::from(self.wavelengths.lambda_nm[0])); LANES];
+        }
+    }
+
+    #[inline]
+    fn evaluated(&self, medium: Option<MediumId>) -> &Indices {
+        medium.map_or(&AIR, |id| &self.media[id.0 as usize].1)
     }
 }

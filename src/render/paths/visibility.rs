@@ -59,8 +59,11 @@ impl Walk<'_> {
             let inside = object.material.medium()?;
             beyond.set_past(shadow_interiors, self.scene, &surface, inside, ray.direction);
             let past = beyond.medium(self.scene);
-            if medium != past && spectra.indices(self.scene, medium).eta != spectra.indices(self.scene, past).eta {
-                return None;
+            if medium != past {
+                let [here, beyond] = spectra.both_indices(self.scene, [medium, past]);
+                if here.eta != beyond.eta {
+                    return None;
+                }
             }
             std::mem::swap(shadow_interiors, beyond);
             ray = surface.spawn(ray.direction);

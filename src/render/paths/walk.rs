@@ -2,7 +2,7 @@
 
 use super::numbers::{Layout, VertexNumbers};
 use super::workspace::Workspace;
-use crate::bsdf::{Carried, Indices, Lanes, Parting, lane_of_way};
+use crate::bsdf::{Carried, Lanes, Parting, lane_of_way};
 use crate::geometry::Ray;
 use crate::optics;
 use crate::sampling::Sobol;
@@ -38,8 +38,6 @@ pub struct Walk<'a> {
     pub carried: Carried,
     /// What the path transports.
     pub mode: TransportMode,
-    /// How it deals out the random numbers of a vertex.
-    pub layout: Layout,
     /// Scattering events so far.
     pub depth: u32,
     /// Absent boundaries crossed so far.
@@ -69,19 +67,18 @@ impl<'a> Walk<'a> {
         carried: Carried,
         Place { sobol, index }: Place,
     ) -> Self {
-        let layout = Layout::Plain;
-        Self { scene, workspace, ray, carried, mode, layout, depth: 0, passed: 0, sobol, index }
+        Self { scene, workspace, ray, carried, mode, depth: 0, passed: 0, sobol, index }
     }
 
     /// Draws the random numbers of the current vertex.
     #[inline]
-    pub fn numbers(&self) -> VertexNumbers {
-        VertexNumbers::new(self.layout, self.sobol.group(self.index, self.depth + 1))
+    pub fn numbers(&self, layout: Layout) -> VertexNumbers {
+        VertexNumbers::new(layout, self.sobol.group(self.index, self.depth + 1))
     }
 
     /// Draws those of the vertex that the ray under way left.
-    pub fn last_numbers(&self) -> VertexNumbers {
-        VertexNumbers::new(self.layout, self.sobol.group(self.index, self.depth))
+    pub fn last_numbers(&self, layout: Layout) -> VertexNumbers {
+        VertexNumbers::new(layout, self.sobol.group(self.index, self.depth))
     }
 
     /// Finds the first surface ahead. Light is absorbed on the way there.
@@ -91,7 +88,7 @@ impl<'a> Walk<'a> {
         counters.shared_segments += u64::from(self.carried.lanes == Lanes::Shared);
         let surface = counters.closest(self.scene, &self.ray, f32::INFINITY);
         if INTERIORS {
-            let medium = self.workspace.interiors.medium(self.scene);
+            let medium = self.medium();
             let distance = surface.map_or(f32::INFINITY, |s| s.t);
             if let Some(transmittance) = self.workspace.transmittance(self.scene, medium, distance) {
                 self.carried.throughput *= transmittance;
@@ -100,10 +97,9 @@ impl<'a> Walk<'a> {
         surface
     }
 
-    /// Returns the indices of the medium that the path is in.
-    pub fn medium_indices(&mut self) -> Indices {
-        let medium = self.workspace.interiors.medium(self.scene);
-        self.workspace.spectra.indices(self.scene, medium)
+    /// Returns the medium that the path is in; `None` is air.
+    pub fn medium(&self) -> Option<MediumId> {
+        self.workspace.interiors.medium(self.scene)
     }
 
     /// Follows each of the lanes that have parted, one after the other, if anything of it is left.

@@ -1,11 +1,11 @@
 //! Camera paths with next-event estimation.
 
 use super::table::{Seen, Techniques};
-use crate::bsdf::{Bsdf, Density, Indices, Lanes, Parting};
+use crate::bsdf::{Bsdf, Density, Lanes, Parting};
 use crate::geometry::Frame;
 use crate::render::paths::{Encounter, Layout, Scattering, Vertex, Walk};
 use crate::sampling::balance_heuristic;
-use crate::scene::{Exit, Light, LightSample, Scene, Surface};
+use crate::scene::{Exit, Light, LightSample, MediumId, Scene, Surface};
 use crate::spectrum::SampledSpectrum;
 use glam::Vec3;
 
@@ -36,18 +36,17 @@ impl Past {
 struct Context<'a> {
     techniques: &'a Techniques,
     max_depth: u32,
-    /// Indices of the medium that holds the camera, if any medium may.
-    camera_indices: Option<Indices>,
+    /// The medium that holds the camera; `None` is air.
+    camera_medium: Option<MediumId>,
 }
 
 /// Returns the radiance that arrives along a camera path, in the camera's medium.
 pub fn radiance<const INTERIORS: bool>(walk: &mut Walk, techniques: &Techniques, max_depth: u32) -> SampledSpectrum {
-    walk.layout = Layout::AskLights;
-    let camera_indices = if INTERIORS { Some(walk.medium_indices()) } else { None };
-    let context = Context { techniques, max_depth, camera_indices };
+    let camera_medium = if INTERIORS { walk.medium() } else { None };
+    let context = Context { techniques, max_depth, camera_medium };
     let mut radiance = follow::<INTERIORS>(walk, &context, Past::SPECULAR, None);
     while walk.resume() {
-        let numbers = walk.last_numbers().next_connection;
+        let numbers = walk.last_numbers(Layout::AskLights).next_connection;
         radiance += follow::<INTERIORS>(walk, &context, Past::SPECULAR, Some(numbers));
     }
     radiance
@@ -80,7 +79,7 @@ fn follow<const INTERIORS: bool>(
             Encounter::Passed => continue,
             Encounter::Absorbed => return radiance,
         };
-        let numbers = walk.numbers();
+        let numbers = walk.numbers(Layout::AskLights);
         keep_with_lanes(walk, lanes, &mut radiance);
 
         // Light that arrives there directly.
@@ -173,12 +172,13 @@ pub fn rough_camera_density(
 
 /// (n_camera / n_here)²: radiance is collected here and recorded there. What refraction changes on the way telescopes to
 /// this, so that no path carries it.
-pub fn radiance_ratio<const INTERIORS: bool>(walk: &mut Walk, camera: &Option<Indices>) -> SampledSpectrum {
-    let (true, Some(camera)) = (INTERIORS, camera) else { return SampledSpectrum::ONE };
-    let here = walk.medium_indices();
-    if here == *camera {
+#[inline]
+pub fn radiance_ratio<const INTERIORS: bool>(walk: &mut Walk, camera: Option<MediumId>) -> SampledSpectrum {
+    let here = if INTERIORS { walk.medium() } else { camera };
+    if here == camera {
         return SampledSpectrum::ONE;
     }
+    let [camera, here] = walk.workspace.spectra.both_indices(walk.scene, [camera, here]);
     SampledSpectrum::from_fn(|k| {
         let ratio = camera.eta[k] / here.eta[k];
         (ratio * ratio) as f32
@@ -206,7 +206,7 @@ fn escaped<const INTERIORS: bool>(walk: &mut Walk, context: &Context, past: Past
     if radiance.is_zero() {
         return radiance;
     }
-    radiance * walk.carried.throughput * radiance_ratio::<INTERIORS>(walk, &context.camera_indices)
+    radiance * walk.carried.throughput * radiance_ratio::<INTERIORS>(walk, context.camera_medium)
 }
 
 /// Light emitted by a surface that a ray has met.
@@ -228,7 +228,7 @@ fn emitted<const INTERIORS: bool>(
     let pdf = |from| light.pdf_surface(from, direction, surface);
     let weight = hit_weight(scene, context.techniques, index, past, &exit, pdf);
     let emission = walk.workspace.spectra.spectrum(scene, light.spectrum);
-    emission * walk.carried.throughput * weight * radiance_ratio::<INTERIORS>(walk, &context.camera_indices)
+    emission * walk.carried.throughput * weight * radiance_ratio::<INTERIORS>(walk, context.camera_medium)
 }
 
 /// Weight of a light found by running into it, against the other techniques that could have found the same path.
@@ -275,7 +275,7 @@ fn direct_light<const INTERIORS: bool>(
             radiance += light_from::<INTERIORS>(walk, vertex, &scene.lights[light as usize], 1.0, u);
         }
     }
-    radiance * walk.carried.throughput * radiance_ratio::<INTERIORS>(walk, &context.camera_indices)
+    radiance * walk.carried.throughput * radiance_ratio::<INTERIORS>(walk, context.camera_medium)
 }
 
 /// Radiance towards the path that one light causes, by a sample of it, on the side of the vertex where the path comes from.

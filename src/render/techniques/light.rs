@@ -4,9 +4,9 @@ use super::camera::{camera_density, rough_camera_density};
 use super::guide::Guide;
 use super::table::{LightPathDensity, Techniques};
 use crate::bsdf::{Branching, Carried};
-use crate::film::{Filter, Sensor, Splats, value};
+use crate::film::{Filter, Sensor, Splats};
 use crate::geometry::Ray;
-use crate::render::paths::{Encounter, Place, Scattering, TransportMode, Vertex, Walk, Workspace, adjoint};
+use crate::render::paths::{Encounter, Layout, Place, Scattering, TransportMode, Vertex, Walk, Workspace, adjoint};
 use crate::sampling::{Draw, balance_heuristic};
 use crate::scene::{Emission, GuidedPair, Scene, Surface};
 use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
@@ -143,7 +143,7 @@ impl LightTracer<'_> {
                 Encounter::Passed => continue,
                 Encounter::Absorbed => return,
             };
-            let numbers = walk.numbers();
+            let numbers = walk.numbers(Layout::Plain);
 
             // Light that arrives there.
             if !vertex.bsdf.is_specular() {
@@ -223,24 +223,19 @@ pub struct Splatter<'a> {
     density: Option<LightPathDensity>,
     /// The sensor's, at the wavelengths of the path under way.
     weights: Vec<SampledSpectrum>,
-    /// Memory for the values of a contribution.
-    values: Vec<f64>,
 }
 
 impl<'a> Splatter<'a> {
     /// With no splats yet.
     pub fn new(sensor: &'a Sensor, filter: &'a Filter, techniques: &'a Techniques) -> Self {
         let splats = Splats::new(sensor.channels());
-        Self { sensor, filter, techniques, splats, start: None, density: None, weights: Vec::new(), values: Vec::new() }
+        Self { sensor, filter, techniques, splats, start: None, density: None, weights: Vec::new() }
     }
 
     fn deposit(&mut self, scene: &Scene, film: [f32; 2], radiance: SampledSpectrum) {
-        self.values.clear();
-        self.values.extend(self.weights.iter().map(|&weights| value(weights, radiance)));
         let [width, height] = scene.camera.size();
-        self.filter.splat(film, width, height, |x, y, weight| {
-            self.splats.push_share(y * width + x, f64::from(weight), &self.values);
-        });
+        self.splats.begin(&self.weights, radiance);
+        self.filter.splat(film, width, height, |x, y, share| self.splats.share(y * width + x, share));
     }
 
     /// A light that the camera sees directly: its own surface is where the path "ends".

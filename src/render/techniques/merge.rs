@@ -8,7 +8,7 @@
 use super::light::{Arrival, Collector, First, Start};
 use super::photons::{Photon, PhotonMap};
 use super::table::Techniques;
-use crate::render::paths::{Encounter, Scattering, Vertex, Walk};
+use crate::render::paths::{Encounter, Layout, Scattering, Vertex, Walk};
 use crate::spectrum::SampledSpectrum;
 use std::f32::consts::FRAC_2_PI;
 
@@ -78,7 +78,7 @@ pub fn follow_specular<const INTERIORS: bool>(
             }
             return;
         }
-        let numbers = walk.numbers();
+        let numbers = walk.numbers(Layout::Plain);
         match walk.scatter(vertex, &numbers) {
             Scattering::Ended => return,
             Scattering::Along(_) => {}
