@@ -158,7 +158,7 @@ fn measure(name: &str, mesh: &Mesh, eye: Vec3) -> f64 {
     for (ray, t_max) in &coherent {
         let Some(hit) = bvh.closest(ray, *t_max, |_, _| None) else { continue };
         let Primitive::Triangle(index) = hit.primitive else { continue };
-        let corners = mesh.triangles[index as usize].map(|vertex| mesh.positions[vertex as usize]);
+        let corners = mesh.triangles[index.0 as usize].map(|vertex| mesh.positions[vertex as usize]);
         let (Some(point), Some(normal)) =
             (TriangleHit::new(ray, corners), geometric_normal(corners[0], corners[1], corners[2]))
         else {

@@ -207,7 +207,7 @@ fn agrees_with_rays(scene: &Scene, light: &Light, from: Vec3, least_met: u32, cu
         let Some(sample) = light.sample(scene, from, pair(i, 7)) else { continue };
         let ray = abbe::geometry::Ray { origin: from, direction: sample.wi };
         let Some(surface) = scene.closest(&ray, f32::INFINITY) else { continue };
-        if scene.objects[surface.object as usize].light.is_none() || !light.emits(&surface, sample.wi) {
+        if scene.object(surface.object).light.is_none() || !light.emits(&surface, sample.wi) {
             continue;
         }
         met += 1;
@@ -263,7 +263,7 @@ fn area_lights() {
         let density = |d: Vec3| {
             let ray = abbe::geometry::Ray { origin: from, direction: d };
             let Some(surface) = scene.closest(&ray, f32::INFINITY) else { return 0.0 };
-            let hit = scene.objects[surface.object as usize].light.is_some() && light.emits(&surface, d);
+            let hit = scene.object(surface.object).light.is_some() && light.emits(&surface, d);
             if hit { light.pdf_surface(from, d, &surface) } else { 0.0 }
         };
         let sample = |i| light.sample(&scene, from, pair(i, 0)).map(|s| s.wi);

@@ -16,7 +16,7 @@ pub use camera::{CameraPart, CameraSamples};
 pub use error::{ErrorParts, PartError, Parts};
 pub use filter::Filter;
 pub use sensor::{PICTURE_CHANNELS, Sensor, value};
-pub use splats::{Share, Splats};
+pub use splats::Splats;
 pub use tile::{CameraTile, SamplePlace};
 
 use replicates::Replicates;

@@ -18,7 +18,7 @@ pub struct Splats {
 
 /// What a pixel gets of a contribution.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Share {
+pub(crate) struct Share {
     /// Row-major index of the pixel.
     pub pixel: u32,
     /// Factor of the contribution's values.
@@ -73,7 +73,7 @@ impl Splats {
     }
 
     /// Lists the contributions: the values of each and their shares.
-    pub fn iter(&self) -> impl Iterator<Item = (&[f64], &[Share])> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&[f64], &[Share])> {
         let ends = self.starts.iter().skip(1).copied().chain([self.shares.len()]);
         let shares = self.starts.iter().zip(ends).map(|(&start, end)| &self.shares[start..end]);
         self.values.chunks_exact(self.channels.max(1)).zip(shares)

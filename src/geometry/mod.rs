@@ -22,7 +22,7 @@ mod sphere;
 mod triangle;
 
 pub use aabb::Aabb;
-pub use bvh::{Bvh, BvhHit, Primitive};
+pub use bvh::{AnalyticId, Bvh, BvhHit, Primitive, TriangleId};
 pub use frame::Frame;
 pub use mesh::Mesh;
 pub use ray::{Ray, offset_origin};

@@ -212,7 +212,7 @@ fn facets(mesh: &Mesh, center: DVec3, tolerance: f64) -> Option<Vec<Facet>> {
 mod tests {
     use super::super::random::Rng;
     use super::super::solids::{BrilliantCut, TriangleSoup, brilliant, prism};
-    use super::super::{Analytic, Bvh, Ray, geometric_normal};
+    use super::super::{Analytic, Bvh, Primitive, Ray, TriangleId, geometric_normal};
     use super::*;
     use crate::math;
 
@@ -251,7 +251,7 @@ mod tests {
                 };
                 hits += 1;
                 from_inside += u32::from(solid.contains(ray.origin.as_dvec3()));
-                let super::super::Primitive::Triangle(index) = expected.primitive else { panic!("{expected:?}") };
+                let Primitive::Triangle(TriangleId(index)) = expected.primitive else { panic!("{expected:?}") };
                 let [a, b, c] = mesh.indices[index as usize].map(|i| positions[i as usize]);
                 let normal = geometric_normal(a, b, c).unwrap();
                 let same = (found.t - f64::from(expected.t)).abs() < 1e-5 && normal.distance(found.normal) < 1e-5;

@@ -5,6 +5,7 @@ mod camera;
 mod compile;
 pub mod description;
 mod features;
+mod ids;
 mod integrator;
 mod light;
 mod material;
@@ -14,14 +15,14 @@ mod surface;
 pub use camera::Camera;
 pub use compile::{Compiled, FilmSettings, RenderSettings, compile, world_mesh};
 pub use features::SceneFeatures;
+pub use ids::{LightId, MediumId, ObjectId, SpectrumId};
 pub use integrator::Integrator;
 pub use light::{
     Aim, AreaLight, AreaShape, BeamLight, DirectionalLight, Emission, EmissionStart, EnvironmentLight, Exit,
     GuidedPair, Light, LightKind, LightSample, PointLight, SpotLight,
 };
 pub use material::{
-    Black, ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, Medium, MediumId, MirrorMaterial,
-    Parameter, SpectrumId,
+    Black, ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, Medium, MirrorMaterial, Parameter,
 };
 pub use solid::Solid;
 pub use surface::{Place, Surface};
@@ -42,9 +43,9 @@ pub struct Scene {
     /// Texture coordinates, one a position or none at all; not finite where a mesh has none.
     pub(crate) uvs: Vec<Vec2>,
     /// The object of each triangle.
-    pub(crate) triangle_objects: Vec<u32>,
+    pub(crate) triangle_objects: Vec<ObjectId>,
     pub(crate) analytic: Vec<Analytic>,
-    pub(crate) analytic_objects: Vec<u32>,
+    pub(crate) analytic_objects: Vec<ObjectId>,
     /// Objects, in the file's order.
     pub objects: Vec<Object>,
     /// Transparent objects, the largest first.
@@ -64,9 +65,9 @@ pub struct Scene {
     /// Draws a light for light paths of all kinds.
     pub emission_table: AliasTable,
     /// Lights at infinity that a ray can run into: the environment and discs like the sun's.
-    pub infinite_lights: Vec<u32>,
+    pub infinite_lights: Vec<LightId>,
     /// Lights that are asked at every point; see [`Light::is_local`].
-    pub local_lights: Vec<u32>,
+    pub local_lights: Vec<LightId>,
     /// The camera.
     pub camera: Camera,
     /// Wavelengths of camera paths.
@@ -88,8 +89,8 @@ pub struct Object {
     pub material: Material,
     /// Whether the back reflects as the front does.
     pub two_sided: bool,
-    /// Index of its light if it emits.
-    pub light: Option<u32>,
+    /// Its light if it emits.
+    pub light: Option<LightId>,
     /// Box around it.
     pub bounds: Aabb,
     /// Whether it may have a face in common with another transparent object; see [`Scene::interiors_at`].
@@ -100,5 +101,29 @@ impl Scene {
     /// A sphere around everything.
     pub fn everything(&self) -> Aim {
         Aim { center: Vec3::ZERO, radius: self.radius }
+    }
+
+    /// Returns an object by its index.
+    #[inline]
+    pub fn object(&self, ObjectId(index): ObjectId) -> &Object {
+        &self.objects[index as usize]
+    }
+
+    /// Returns a light by its index.
+    #[inline]
+    pub fn light(&self, LightId(index): LightId) -> &Light {
+        &self.lights[index as usize]
+    }
+
+    /// Returns a spectrum by its index.
+    #[inline]
+    pub fn spectrum(&self, SpectrumId(index): SpectrumId) -> &SpectrumTable {
+        &self.spectra[index as usize]
+    }
+
+    /// Returns a medium by its index.
+    #[inline]
+    pub fn medium(&self, MediumId(index): MediumId) -> &Medium {
+        &self.media[index as usize]
     }
 }

@@ -1,7 +1,9 @@
 //! Transparent volumes: which of them hold a point.
 
-use super::{Material, MediumId, Scene};
-use crate::geometry::{Aabb, Analytic, Bvh, Primitive, Ray, TriangleHit, geometric_normal, offset_origin};
+use super::{Material, MediumId, ObjectId, Scene};
+use crate::geometry::{
+    Aabb, Analytic, AnalyticId, Bvh, Primitive, Ray, TriangleHit, TriangleId, geometric_normal, offset_origin,
+};
 use glam::{DVec3, Vec3};
 use std::collections::HashSet;
 use std::ops::Range;
@@ -10,8 +12,8 @@ use std::sync::OnceLock;
 /// A transparent object as a set of points.
 #[derive(Debug)]
 pub struct Solid {
-    /// Index of the object.
-    pub object: u32,
+    /// The object.
+    pub object: ObjectId,
     /// What is inside.
     pub medium: MediumId,
     /// Box around it.
@@ -25,7 +27,7 @@ pub(super) enum SolidShape {
     /// Count the faces that a ray to infinity crosses. The tree over these triangles alone is built when first needed.
     Triangles(Range<usize>, OnceLock<Bvh>),
     /// Ask the shape's own equation.
-    Analytic(usize),
+    Analytic(AnalyticId),
 }
 
 impl SolidShape {
@@ -42,7 +44,7 @@ impl Solid {
             return false;
         }
         match &self.shape {
-            SolidShape::Analytic(index) => scene.analytic[*index].contains(point.as_dvec3()),
+            SolidShape::Analytic(index) => scene.analytic(*index).contains(point.as_dvec3()),
             SolidShape::Triangles(range, tree) => {
                 let triangles = &scene.triangles[range.clone()];
                 let tree = tree.get_or_init(|| Bvh::build(&scene.positions, triangles, &[]));
@@ -58,7 +60,7 @@ fn crossings(tree: &Bvh, positions: &[Vec3], triangles: &[[u32; 3]], point: Vec3
     let mut ray = Ray { origin: point, direction: Vec3::new(0.281_103, 0.873_241, 0.398_014).normalize() };
     let mut balance = 0;
     while let Some(hit) = tree.closest(&ray, f32::INFINITY, |_, _| None) {
-        let Primitive::Triangle(index) = hit.primitive else { break };
+        let Primitive::Triangle(TriangleId(index)) = hit.primitive else { break };
         let corners = triangles[index as usize].map(|i| positions[i as usize]);
         let met = TriangleHit::new(&ray, corners).zip(geometric_normal(corners[0], corners[1], corners[2]));
         let Some((met, normal)) = met else { break };
@@ -75,7 +77,7 @@ pub(super) fn any_overlaps(solids: &[Solid], bounds: &Aabb) -> bool {
 
 impl Scene {
     /// The transparent objects that hold a point, larger ones first: they are taken to have been entered first.
-    pub fn interiors_at(&self, point: Vec3) -> Vec<(u32, MediumId)> {
+    pub fn interiors_at(&self, point: Vec3) -> Vec<(ObjectId, MediumId)> {
         self.solids.iter().filter(|s| s.contains(self, point)).map(|s| (s.object, s.medium)).collect()
     }
 
@@ -95,16 +97,14 @@ impl Scene {
                 }
             }
         }
-        for object in marked {
-            self.objects[object as usize].coincident = true;
+        for ObjectId(index) in marked {
+            self.objects[index as usize].coincident = true;
         }
     }
 
     fn may_coincide(&self, a: &Solid, b: &Solid) -> bool {
         let curved = match (&a.shape, &b.shape) {
-            (SolidShape::Analytic(a), SolidShape::Analytic(b)) => {
-                self.analytic[*a].may_share_a_face(&self.analytic[*b])
-            }
+            (SolidShape::Analytic(a), SolidShape::Analytic(b)) => self.analytic(*a).may_share_a_face(self.analytic(*b)),
             _ => false,
         };
         let planes = PlaneSet(self.planes(a).map(PlaneSet::cell).collect());
@@ -115,7 +115,7 @@ impl Scene {
     fn planes(&self, solid: &Solid) -> impl Iterator<Item = (DVec3, f64)> {
         let (triangles, analytic) = match &solid.shape {
             SolidShape::Triangles(range, _) => (range.clone(), None),
-            SolidShape::Analytic(index) => (0..0, Some(&self.analytic[*index])),
+            SolidShape::Analytic(index) => (0..0, Some(self.analytic(*index))),
         };
         let of_triangle = |triangle: usize| {
             let [a, b, c] = self.triangles[triangle].map(|i| self.positions[i as usize]);
@@ -158,7 +158,7 @@ impl PlaneSet {
 }
 
 impl Solid {
-    pub(super) fn of(object: u32, material: &Material, bounds: Aabb, shape: SolidShape) -> Option<Self> {
+    pub(super) fn of(object: ObjectId, material: &Material, bounds: Aabb, shape: SolidShape) -> Option<Self> {
         let medium = material.medium()?;
         Some(Self { object, medium, bounds, shape })
     }

@@ -1,7 +1,10 @@
 //! Where a ray meets a surface, and the coordinates of that point on it.
 
-use super::{EmissionStart, Scene};
-use crate::geometry::{AnalyticHit, Parametrization, Primitive, Ray, TriangleHit, geometric_normal, offset_origin};
+use super::{EmissionStart, ObjectId, Scene};
+use crate::geometry::{
+    Analytic, AnalyticHit, AnalyticId, Parametrization, Primitive, Ray, TriangleHit, TriangleId, geometric_normal,
+    offset_origin,
+};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 
 /// A hit on a surface.
@@ -17,8 +20,8 @@ pub struct Surface {
     pub geometric: DVec3,
     /// Interpolated normal, on the same side.
     pub shading: Vec3,
-    /// Index of the object.
-    pub object: u32,
+    /// The object.
+    pub object: ObjectId,
     /// Which primitive was hit, and where; `None` for a point that no ray has met.
     pub place: Option<Place>,
 }
@@ -28,15 +31,15 @@ pub struct Surface {
 pub enum Place {
     /// On a triangle.
     Triangle {
-        /// Index of the triangle.
-        index: u32,
+        /// The triangle.
+        index: TriangleId,
         /// Weights of the second and of the third vertex.
         barycentrics: [f32; 2],
     },
     /// On an analytic shape.
     Analytic {
-        /// Index of the shape.
-        index: u32,
+        /// The shape.
+        index: AnalyticId,
         /// Which of the shape's surfaces.
         face: u8,
     },
@@ -56,7 +59,7 @@ impl Surface {
             error: Vec3::ZERO,
             geometric: start.normal.as_dvec3(),
             shading: start.normal,
-            object: u32::MAX,
+            object: ObjectId::NONE,
             place: None,
         }
     }
@@ -65,9 +68,9 @@ impl Surface {
 impl Scene {
     /// The first surface on a ray.
     pub fn closest(&self, ray: &Ray, t_max: f32) -> Option<Surface> {
-        let mut last: Option<(u32, AnalyticHit)> = None;
+        let mut last: Option<(AnalyticId, AnalyticHit)> = None;
         let hit = self.bvh.closest(ray, t_max, |index, t_max| {
-            let hit = self.analytic[index as usize].intersect(ray, t_max)?;
+            let hit = self.analytic(index).intersect(ray, t_max)?;
             last = Some((index, hit));
             Some(hit.t as f32)
         })?;
@@ -76,7 +79,7 @@ impl Scene {
             Primitive::Analytic(index) => {
                 let hit = match last {
                     Some((i, hit)) if i == index => hit,
-                    _ => self.analytic[index as usize].intersect(ray, t_max)?,
+                    _ => self.analytic(index).intersect(ray, t_max)?,
                 };
                 Some(Surface {
                     t: hit.t as f32,
@@ -84,27 +87,37 @@ impl Scene {
                     error: hit.error,
                     geometric: hit.normal,
                     shading: hit.normal.as_vec3(),
-                    object: self.analytic_objects[index as usize],
+                    object: self.analytic_objects[index.0 as usize],
                     place: Some(Place::Analytic { index, face: hit.face }),
                 })
             }
         }
     }
 
-    /// Whether anything is in the way.
-    pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {
-        self.bvh.occluded(ray, t_max, |index, t_max| self.analytic[index as usize].hits(ray, t_max))
+    #[inline]
+    fn triangle(&self, TriangleId(index): TriangleId) -> [u32; 3] {
+        self.triangles[index as usize]
     }
 
-    fn triangle_surface(&self, ray: &Ray, index: u32, t: f32) -> Option<Surface> {
-        let [a, b, c] = self.triangles[index as usize];
+    #[inline]
+    pub(super) fn analytic(&self, AnalyticId(index): AnalyticId) -> &Analytic {
+        &self.analytic[index as usize]
+    }
+
+    /// Whether anything is in the way.
+    pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {
+        self.bvh.occluded(ray, t_max, |index, t_max| self.analytic(index).hits(ray, t_max))
+    }
+
+    fn triangle_surface(&self, ray: &Ray, index: TriangleId, t: f32) -> Option<Surface> {
+        let [a, b, c] = self.triangle(index);
         let vertices = [a, b, c].map(|i| self.positions[i as usize]);
         let hit = TriangleHit::new(ray, vertices)?;
         let geometric = geometric_normal(vertices[0], vertices[1], vertices[2])?;
-        let object = self.triangle_objects[index as usize];
+        let object = self.triangle_objects[index.0 as usize];
         let mut shading = geometric.as_vec3();
         let [wa, wb, wc] = hit.barycentrics;
-        if !self.normals.is_empty() && self.objects[object as usize].material.uses_shading_normals() {
+        if !self.normals.is_empty() && self.object(object).material.uses_shading_normals() {
             let [na, nb, nc] = [a, b, c].map(|i| self.normals[i as usize]);
             let smooth = (na * wa + nb * wb + nc * wc).normalize_or_zero();
             if smooth.dot(shading) > 0.0 {
@@ -132,7 +145,7 @@ impl Scene {
     pub fn parametrization(&self, surface: &Surface) -> Option<Parametrization> {
         match surface.place? {
             Place::Triangle { index, .. } => {
-                let [a, b, c] = self.triangles[index as usize].map(|i| self.positions[i as usize].as_dvec3());
+                let [a, b, c] = self.triangle(index).map(|i| self.positions[i as usize].as_dvec3());
                 let [uv_a, uv_b, uv_c] = self.triangle_uvs(index)?.map(|uv| uv.as_dvec2());
                 let (p, q) = (b - a, c - a);
                 let (s, t): (DVec2, DVec2) = (uv_b - uv_a, uv_c - uv_a);
@@ -141,15 +154,13 @@ impl Scene {
                 let uv = self.uv(surface)?.as_dvec2();
                 (determinant != 0.0).then_some(Parametrization { uv, dp_du, dp_dv })
             }
-            Place::Analytic { index, face } => {
-                self.analytic[index as usize].parametrization(face, surface.point.as_dvec3())
-            }
+            Place::Analytic { index, face } => self.analytic(index).parametrization(face, surface.point.as_dvec3()),
         }
     }
 
     /// Texture coordinates of a triangle's corners, if its mesh has any.
-    fn triangle_uvs(&self, index: u32) -> Option<[Vec2; 3]> {
-        let [a, b, c] = self.triangles[index as usize].map(|i| self.uvs.get(i as usize).copied());
+    fn triangle_uvs(&self, index: TriangleId) -> Option<[Vec2; 3]> {
+        let [a, b, c] = self.triangle(index).map(|i| self.uvs.get(i as usize).copied());
         let uvs = [a?, b?, c?];
         uvs.iter().all(|uv| uv.is_finite()).then_some(uvs)
     }

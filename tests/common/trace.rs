@@ -4,7 +4,7 @@
 
 use abbe::geometry::Ray;
 use abbe::optics::{reflect, refract};
-use abbe::scene::{Compiled, Scene};
+use abbe::scene::{Compiled, ObjectId, Scene};
 use glam::DVec3;
 use serde_json::Value;
 
@@ -52,7 +52,7 @@ impl<'a> Tracer<'a> {
     /// others. What lies between equal media is no boundary.
     pub fn trace(&self, from: DVec3, direction: DVec3, lambda_nm: f64, events: &[Event]) -> Traced {
         let mut ray = Ray { origin: ((from - self.center) / self.unit).as_vec3(), direction: direction.as_vec3() };
-        let mut inside: Vec<u32> = Vec::new();
+        let mut inside: Vec<ObjectId> = Vec::new();
         let (mut point, mut met) = (from, 0);
         while let Some(surface) = self.scene.closest(&ray, f32::INFINITY) {
             let d = ray.direction.as_dvec3().normalize();
@@ -89,9 +89,9 @@ impl<'a> Tracer<'a> {
     }
 
     /// Index of what wins among objects: the highest priority, and of equals the one entered last.
-    fn index(&self, inside: &[u32], lambda_nm: f64) -> f64 {
-        let medium = |object: &u32| {
-            let medium = self.scene.objects[*object as usize].material.medium();
+    fn index(&self, inside: &[ObjectId], lambda_nm: f64) -> f64 {
+        let medium = |object: &ObjectId| {
+            let medium = self.scene.object(*object).material.medium();
             &self.scene.media[medium.expect("rays are traced through glass alone").0 as usize]
         };
         inside.iter().map(medium).max_by_key(|m| m.priority).map_or(1.0, |m| m.ior.eval(lambda_nm))

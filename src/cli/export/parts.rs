@@ -7,7 +7,7 @@ use crate::scene::description::{
 };
 use crate::scene::{
     Compiled, ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, MirrorMaterial, Parameter, Scene,
-    SpectrumId, world_mesh,
+    world_mesh,
 };
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, SpectrumTable};
 use crate::{Error, ErrorKind, Result, math};
@@ -149,7 +149,7 @@ impl Parts {
                 _ => scene.radiance_scale * per_area,
             };
             let Some(found) = shapeless.next() else { break };
-            lights.push((light.kind.clone(), Table::of(table(scene, found.spectrum), factor), light.at.clone()));
+            lights.push((light.kind.clone(), Table::of(scene.spectrum(found.spectrum), factor), light.at.clone()));
         }
         let environment = description.environment.as_ref().and_then(|_| shapeless.next());
         if lights.len() + usize::from(environment.is_some())
@@ -166,14 +166,10 @@ impl Parts {
             max_depth: compiled.render.max_depth,
             objects,
             lights,
-            environment: environment.map(|light| Table::of(table(scene, light.spectrum), scene.radiance_scale)),
+            environment: environment.map(|light| Table::of(scene.spectrum(light.spectrum), scene.radiance_scale)),
             meshes,
         })
     }
-}
-
-fn table(scene: &Scene, id: SpectrumId) -> &SpectrumTable {
-    &scene.spectra[id.0 as usize]
 }
 
 /// Nested and touching volumes mean something else in every renderer.
@@ -205,7 +201,7 @@ fn object(
     let material = object.material.map(|i| &description.materials[i].1);
     let shape = shape(scene, index, object, stem, meshes)?;
     let emission = compiled.light.map(|light| {
-        let table = Table::of(table(scene, scene.lights[light as usize].spectrum), scene.radiance_scale);
+        let table = Table::of(scene.spectrum(scene.light(light).spectrum), scene.radiance_scale);
         (table, object.emission_two_sided)
     });
     Ok(Object {
@@ -219,7 +215,7 @@ fn object(
 
 fn surface(scene: &Scene, material: Material, at_nm: Option<f64>, place: &str) -> Result<Surface> {
     let table = |parameter: Parameter| match parameter {
-        Parameter::Spectrum(id) => Table::of(table(scene, id), 1.0),
+        Parameter::Spectrum(id) => Table::of(scene.spectrum(id), 1.0),
     };
     Ok(match material {
         Material::Black(_) => Surface::Diffuse(Table::Constant(0.0)),
@@ -227,7 +223,7 @@ fn surface(scene: &Scene, material: Material, at_nm: Option<f64>, place: &str) -
         Material::Mirror(MirrorMaterial { reflectance }) => Surface::Mirror(table(reflectance)),
         Material::Conductor(ConductorMaterial { eta, k, alpha }) => Surface::Conductor(table(eta), table(k), alpha),
         Material::Dielectric(DielectricMaterial { medium, alpha }) => {
-            let medium = &scene.media[medium.0 as usize];
+            let medium = scene.medium(medium);
             if medium.absorption.is_some() {
                 let message =
                     "absorption inside a volume cannot be written: other renderers have it in media of their own";

@@ -46,13 +46,21 @@ pub struct Bvh {
     triangle_count: u32,
 }
 
-/// What was hit, as an index into the arrays given to [`Bvh::build`].
+/// Index of a triangle in the array given to [`Bvh::build`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct TriangleId(pub u32);
+
+/// Index of an analytic primitive in the array of boxes given to [`Bvh::build`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct AnalyticId(pub u32);
+
+/// What was hit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Primitive {
-    /// Index of a triangle.
-    Triangle(u32),
-    /// Index of an analytic primitive.
-    Analytic(u32),
+    /// A triangle.
+    Triangle(TriangleId),
+    /// An analytic primitive.
+    Analytic(AnalyticId),
 }
 
 /// The nearest hit.
@@ -128,19 +136,24 @@ impl Bvh {
     ///
     /// `analytic(index, t_max)` gives the nearest distance in (0, `t_max`) at which the ray meets one analytic primitive.
     #[inline]
-    pub fn closest(&self, ray: &Ray, t_max: f32, analytic: impl FnMut(u32, f32) -> Option<f32>) -> Option<BvhHit> {
+    pub fn closest(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        analytic: impl FnMut(AnalyticId, f32) -> Option<f32>,
+    ) -> Option<BvhHit> {
         let nearest = self.dispatch::<false>(ray, t_max, analytic)?;
         let key = nearest.key?;
         let primitive = match key.checked_sub(self.triangle_count) {
-            None => Primitive::Triangle(key),
-            Some(index) => Primitive::Analytic(index),
+            None => Primitive::Triangle(TriangleId(key)),
+            Some(index) => Primitive::Analytic(AnalyticId(index)),
         };
         Some(BvhHit { primitive, t: nearest.t })
     }
 
     /// Whether anything is hit with 0 < t < `t_max`. `analytic(index, t_max)` tells it of one analytic primitive.
     #[inline]
-    pub fn occluded(&self, ray: &Ray, t_max: f32, mut analytic: impl FnMut(u32, f32) -> bool) -> bool {
+    pub fn occluded(&self, ray: &Ray, t_max: f32, mut analytic: impl FnMut(AnalyticId, f32) -> bool) -> bool {
         let any = self.dispatch::<true>(ray, t_max, |index, t_max| analytic(index, t_max).then_some(0.0));
         any.is_some_and(|nearest| nearest.key.is_some())
     }
@@ -150,7 +163,7 @@ impl Bvh {
         &self,
         ray: &Ray,
         t_max: f32,
-        analytic: impl FnMut(u32, f32) -> Option<f32>,
+        analytic: impl FnMut(AnalyticId, f32) -> Option<f32>,
     ) -> Option<Nearest> {
         if self.stack_entries < SMALL_STACK {
             self.traverse::<SMALL_STACK, ANY>(ray, t_max, analytic)
@@ -166,7 +179,7 @@ impl Bvh {
         &self,
         ray: &Ray,
         t_max: f32,
-        mut analytic: impl FnMut(u32, f32) -> Option<f32>,
+        mut analytic: impl FnMut(AnalyticId, f32) -> Option<f32>,
     ) -> Option<Nearest> {
         let lanes = RayLanes::new(ray)?;
         let mut nearest = Nearest { t: t_max, key: None };
@@ -200,7 +213,7 @@ impl Bvh {
                 Target::Analytic(index) => {
                     // A hit as near as the best so far may still come first in order.
                     let limit = if nearest.key.is_some() { nearest.t.next_up() } else { nearest.t };
-                    if let Some(t) = analytic(index, limit) {
+                    if let Some(t) = analytic(AnalyticId(index), limit) {
                         nearest.offer(t, self.triangle_count + index);
                     }
                 }

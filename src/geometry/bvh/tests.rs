@@ -170,7 +170,7 @@ impl Soup {
 
 fn closest(bvh: &Bvh, ray: &Ray) -> Option<(u32, f32)> {
     bvh.closest(ray, f32::INFINITY, |_, _| None).map(|hit| match hit.primitive {
-        Primitive::Triangle(index) => (index, hit.t),
+        Primitive::Triangle(TriangleId(index)) => (index, hit.t),
         Primitive::Analytic(_) => panic!("there are none"),
     })
 }
@@ -439,9 +439,9 @@ fn analytic_primitives_mix_with_triangles() {
     let triangles = soup.bvh();
     for _ in 0..5000 {
         let ray = Ray { origin: random.point(), direction: random.direction() };
-        let hit = |index: u32| sphere_hit(&ray, spheres[index as usize].0, spheres[index as usize].1);
-        let mut expected = closest(&triangles, &ray).map(|(id, t)| (Primitive::Triangle(id), t));
-        for index in 0..60 {
+        let hit = |AnalyticId(index)| sphere_hit(&ray, spheres[index as usize].0, spheres[index as usize].1);
+        let mut expected = closest(&triangles, &ray).map(|(id, t)| (Primitive::Triangle(TriangleId(id)), t));
+        for index in (0..60).map(AnalyticId) {
             if let Some(t) = hit(index)
                 && expected.is_none_or(|(_, near)| t < near)
             {
@@ -468,10 +468,10 @@ fn the_first_of_equally_near_primitives_wins() {
     }
     let ray = Ray { origin: Vec3::ZERO, direction: Vec3::Z };
     let both = Bvh::build(&soup.positions, &soup.triangles, &analytic);
-    let meets = |_: u32, t_max: f32| (t_max > 1.0).then_some(1.0);
-    assert_eq!(both.closest(&ray, 9.0, meets), Some(BvhHit { primitive: Primitive::Triangle(0), t: 1.0 }));
+    let meets = |_: AnalyticId, t_max: f32| (t_max > 1.0).then_some(1.0);
+    assert_eq!(both.closest(&ray, 9.0, meets), Some(BvhHit { primitive: Primitive::Triangle(TriangleId(0)), t: 1.0 }));
     let alone = Bvh::build(&[], &[], &analytic);
-    assert_eq!(alone.closest(&ray, 9.0, meets), Some(BvhHit { primitive: Primitive::Analytic(0), t: 1.0 }));
+    assert_eq!(alone.closest(&ray, 9.0, meets), Some(BvhHit { primitive: Primitive::Analytic(AnalyticId(0)), t: 1.0 }));
     assert_eq!(alone.closest(&ray, 1.0, meets), None);
 }
 

@@ -10,6 +10,7 @@ use crate::film::{Filter, Xyz, value};
 use crate::render::paths::{Counters, Place, Workspace};
 use crate::render::techniques::{Experience, LightTracer, Splatter, Techniques};
 use crate::sampling::{Sobol, mix};
+use crate::scene::LightId;
 use rayon::prelude::*;
 
 /// Numbers of ways that are tried. Eight have been the best nowhere, and to try them would cost as much as all others.
@@ -42,7 +43,7 @@ struct LightTrial {
 
 /// A light path of a trial.
 struct LightTrialPath {
-    light: u32,
+    light: LightId,
     numbers: [f32; 2],
     /// Pixels with what they got.
     hits: Vec<(u32, Xyz)>,
@@ -110,7 +111,7 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
         let Techniques::CameraAndLight { guide, .. } = &mut plan.techniques else { return };
         let mut experience = Experience::new(self.scene);
         for path in trials.iter().flat_map(|t| &t.paths) {
-            experience.add(path.light as usize, path.numbers, path.square(brightness));
+            experience.add(path.light, path.numbers, path.square(brightness));
         }
         *guide = experience.guide(guide, self.scene);
     }

@@ -1,7 +1,7 @@
 //! What stays the same during a render: the scene, the settings, the sensor and the plan.
 
 use super::plan::Plan;
-use crate::scene::{FilmSettings, MediumId, RenderSettings, Scene};
+use crate::scene::{FilmSettings, MediumId, ObjectId, RenderSettings, Scene};
 
 /// A render's givens and its plan. `INTERIORS` tells whether paths keep what they are inside of.
 pub struct Renderer<'a, const INTERIORS: bool> {
@@ -14,7 +14,7 @@ pub struct Renderer<'a, const INTERIORS: bool> {
     /// What has been decided.
     pub plan: Plan,
     /// What holds the camera, if that is the same for all its rays.
-    pub camera_interiors: Option<Vec<(u32, MediumId)>>,
+    pub camera_interiors: Option<Vec<(ObjectId, MediumId)>>,
 }
 
 impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {

@@ -18,7 +18,7 @@ impl Walk<'_> {
     /// `beyond` is what lies past them, up to the next shadow ray.
     #[inline(always)]
     pub fn encounter<'s, const INTERIORS: bool>(&mut self, surface: &'s Surface) -> Encounter<'s> {
-        let object = &self.scene.objects[surface.object as usize];
+        let object = self.scene.object(surface.object);
         let wo = -self.ray.direction;
         let focuses = object.material.focuses();
         if let Material::Dielectric(DielectricMaterial { medium, alpha }) = object.material {

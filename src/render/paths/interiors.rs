@@ -1,18 +1,18 @@
 //! The transparent objects that a path is inside of.
 
-use crate::scene::{MediumId, Scene, Surface};
+use crate::scene::{MediumId, ObjectId, Scene, Surface};
 use glam::Vec3;
 
 /// The transparent objects that hold a point, in the order in which they were entered. Where they overlap, the one of
 /// highest priority is there, and of equals the one entered last.
 #[derive(Debug, Clone, Default)]
 pub struct Interiors {
-    entries: Vec<(u32, MediumId)>,
+    entries: Vec<(ObjectId, MediumId)>,
 }
 
 impl Interiors {
     /// Starts from a known list.
-    pub fn reset(&mut self, entries: &[(u32, MediumId)]) {
+    pub fn reset(&mut self, entries: &[(ObjectId, MediumId)]) {
         self.entries.clear();
         self.entries.extend_from_slice(entries);
     }
@@ -38,7 +38,7 @@ impl Interiors {
         medium: MediumId,
         direction: Vec3,
     ) -> bool {
-        if scene.objects[surface.object as usize].coincident {
+        if scene.object(surface.object).coincident {
             self.reset(&scene.interiors_at(surface.spawn(direction).origin));
             return true;
         }
@@ -52,7 +52,7 @@ impl Interiors {
     }
 }
 
-fn top(scene: &Scene, entries: impl Iterator<Item = (u32, MediumId)>) -> Option<MediumId> {
+fn top(scene: &Scene, entries: impl Iterator<Item = (ObjectId, MediumId)>) -> Option<MediumId> {
     // Of equal maxima `max_by_key` returns the last.
-    entries.max_by_key(|(_, medium)| scene.media[medium.0 as usize].priority).map(|(_, medium)| medium)
+    entries.max_by_key(|(_, medium)| scene.medium(*medium).priority).map(|(_, medium)| medium)
 }

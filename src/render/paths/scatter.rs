@@ -57,7 +57,7 @@ impl Walk<'_> {
     fn cross_at(&mut self, vertex: &Vertex) {
         // At vertices that are not specular shadow rays have used the memory since the encounter.
         if !vertex.bsdf.is_specular()
-            && let Some(medium) = self.scene.objects[vertex.surface.object as usize].material.medium()
+            && let Some(medium) = self.scene.object(vertex.surface.object).material.medium()
         {
             let direction = self.ray.direction;
             let Workspace { interiors, beyond, .. } = &mut *self.workspace;

@@ -39,7 +39,7 @@ impl SpectralCache {
         let (path, value) = &mut self.spectra[id.0 as usize];
         if *path != self.path {
             *path = self.path;
-            *value = scene.spectra[id.0 as usize].sample(&self.wavelengths);
+            *value = scene.spectrum(id).sample(&self.wavelengths);
         }
         *value
     }
@@ -74,7 +74,7 @@ impl SpectralCache {
             return;
         }
         *path = self.path;
-        let medium = &scene.media[id.0 as usize];
+        let medium = scene.medium(id);
         value.dispersive = medium.dispersive;
         if medium.dispersive {
             value.eta = self.wavelengths.lambda_nm.map(|lambda| medium.ior.eval(f64::from(lambda)));

@@ -33,7 +33,7 @@ impl Walk<'_> {
             return (!occluded).then_some(SampledSpectrum::ONE);
         }
         let Workspace { interiors, shadow_interiors, .. } = &mut *self.workspace;
-        match self.scene.objects.get(surface.object as usize).and_then(|object| object.material.medium()) {
+        match self.scene.objects.get(surface.object.0 as usize).and_then(|object| object.material.medium()) {
             Some(medium) if crosses => {
                 shadow_interiors.set_past(interiors, self.scene, surface, medium, wi);
             }
@@ -51,11 +51,11 @@ impl Walk<'_> {
             let medium = shadow_interiors.medium(self.scene);
             let distance =
                 hit.map_or(if target.is_some() { 1.0 } else { f32::INFINITY }, |h| h.t) * ray.direction.length();
-            if let Some(absorption) = medium.and_then(|m| self.scene.media[m.0 as usize].absorption) {
+            if let Some(absorption) = medium.and_then(|m| self.scene.medium(m).absorption) {
                 transmittance *= optics::transmittance(spectra.spectrum(self.scene, absorption), distance);
             }
             let Some(surface) = hit else { return Some(transmittance) };
-            let object = &self.scene.objects[surface.object as usize];
+            let object = self.scene.object(surface.object);
             let inside = object.material.medium()?;
             beyond.set_past(shadow_interiors, self.scene, &surface, inside, ray.direction);
             let past = beyond.medium(self.scene);

@@ -156,7 +156,7 @@ impl Workspace {
     /// Returns what a medium lets through over a distance; `None` if everything.
     #[inline]
     fn transmittance(&mut self, scene: &Scene, medium: Option<MediumId>, distance: f32) -> Option<SampledSpectrum> {
-        let absorption = scene.media[medium?.0 as usize].absorption?;
+        let absorption = scene.medium(medium?).absorption?;
         Some(optics::transmittance(self.spectra.spectrum(scene, absorption), distance))
     }
 }

@@ -5,7 +5,7 @@ use crate::bsdf::{Bsdf, Density, Lanes, Parting};
 use crate::geometry::Frame;
 use crate::render::paths::{Encounter, Layout, Scattering, Vertex, Walk};
 use crate::sampling::balance_heuristic;
-use crate::scene::{Exit, Light, LightSample, MediumId, Scene, Surface};
+use crate::scene::{Exit, Light, LightId, LightSample, MediumId, Scene, Surface};
 use crate::spectrum::SampledSpectrum;
 use glam::Vec3;
 
@@ -197,7 +197,7 @@ fn escaped<const INTERIORS: bool>(walk: &mut Walk, context: &Context, past: Past
     let scene = walk.scene;
     let mut radiance = SampledSpectrum::ZERO;
     for &index in &scene.infinite_lights {
-        let light = &scene.lights[index as usize];
+        let light = scene.light(index);
         let Some((factor, pdf)) = light.escaped(walk.ray.direction) else { continue };
         let exit = Exit { point: walk.ray.origin, direction: -walk.ray.direction, cos: 1.0 };
         let weight = hit_weight(scene, context.techniques, index, past, &exit, |_| pdf);
@@ -217,8 +217,8 @@ fn emitted<const INTERIORS: bool>(
     past: Past,
 ) -> SampledSpectrum {
     let scene = walk.scene;
-    let Some(index) = scene.objects[surface.object as usize].light else { return SampledSpectrum::ZERO };
-    let light = &scene.lights[index as usize];
+    let Some(index) = scene.object(surface.object).light else { return SampledSpectrum::ZERO };
+    let light = scene.light(index);
     if !light.emits(surface, walk.ray.direction) {
         return SampledSpectrum::ZERO;
     }
@@ -235,7 +235,7 @@ fn emitted<const INTERIORS: bool>(
 fn hit_weight(
     scene: &Scene,
     techniques: &Techniques,
-    light: u32,
+    light: LightId,
     Past { origin, seen }: Past,
     exit: &Exit,
     light_pdf: impl Fn(Vec3) -> f32,
@@ -246,7 +246,7 @@ fn hit_weight(
         }
         Origin::Scattered { from, pdf, .. } => SampledSpectrum::splat(balance_heuristic(
             pdf,
-            scene.light_table.probability(light as usize) * light_pdf(from),
+            scene.light_table.probability(light.0 as usize) * light_pdf(from),
         )),
         Origin::Delta => techniques.camera_weight_of_caustic(scene, light, seen, exit),
     }
@@ -265,14 +265,14 @@ fn direct_light<const INTERIORS: bool>(
     let mut radiance = SampledSpectrum::ZERO;
     let glossy = vertex.is_glossy() && !matches!(seen, Seen::Nothing);
     if let Some(draw) = scene.light_table.sample(u[0])
-        && (!glossy || techniques.camera_owns_glossy_caustic(draw.index as u32, seen))
+        && (!glossy || techniques.camera_owns_glossy_caustic(LightId(draw.index as u32), seen))
     {
         let light = &scene.lights[draw.index];
         radiance += light_from::<INTERIORS>(walk, vertex, light, draw.probability, [draw.rest, u[1]]);
     }
     for &light in &scene.local_lights {
         if techniques.camera_owns_local_light(light, seen) {
-            radiance += light_from::<INTERIORS>(walk, vertex, &scene.lights[light as usize], 1.0, u);
+            radiance += light_from::<INTERIORS>(walk, vertex, scene.light(light), 1.0, u);
         }
     }
     radiance * walk.carried.throughput * radiance_ratio::<INTERIORS>(walk, context.camera_medium)

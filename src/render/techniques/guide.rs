@@ -1,7 +1,7 @@
 //! Where light paths start: which light, and where in the pair of random numbers that decides what its paths meet.
 
 use crate::sampling::{AliasTable, Draw, GridDensity};
-use crate::scene::{Aim, Exit, GuidedPair, Light, Scene};
+use crate::scene::{Aim, Exit, GuidedPair, Light, LightId, Scene};
 
 /// Cells along each side of a light's grid.
 pub const SIDE: usize = 32;
@@ -23,19 +23,19 @@ impl Guide {
         Self { lights, grids: vec![None; scene.lights.len()] }
     }
 
-    /// Draws a light.
+    /// Draws a light; its index is that of a [`LightId`].
     pub fn sample_light(&self, u: f32) -> Option<Draw> {
         self.lights.sample(u)
     }
 
     /// Probability of a light.
-    pub fn probability(&self, light: u32) -> f32 {
+    pub fn probability(&self, LightId(light): LightId) -> f32 {
         self.lights.probability(light as usize)
     }
 
     /// Moves the guided one of two pairs of random numbers; the density by which to divide.
-    pub fn warp(&self, light: usize, pair: Option<GuidedPair>, u: &mut [f32; 2], v: &mut [f32; 2]) -> f32 {
-        let (Some(grid), Some(pair)) = (&self.grids[light], pair) else { return 1.0 };
+    pub fn warp(&self, LightId(light): LightId, pair: Option<GuidedPair>, u: &mut [f32; 2], v: &mut [f32; 2]) -> f32 {
+        let (Some(grid), Some(pair)) = (&self.grids[light as usize], pair) else { return 1.0 };
         let numbers = match pair {
             GuidedPair::Point => u,
             GuidedPair::Direction => v,
@@ -45,7 +45,7 @@ impl Guide {
     }
 
     /// Density relative to that of an unguided path, for light that leaves in this way.
-    pub fn density(&self, index: u32, light: &Light, exit: &Exit, aim: &Aim) -> f32 {
+    pub fn density(&self, LightId(index): LightId, light: &Light, exit: &Exit, aim: &Aim) -> f32 {
         let Some(grid) = &self.grids[index as usize] else { return 1.0 };
         light.guided_numbers(exit, aim).map_or(1.0, |numbers| grid.density(numbers))
     }
@@ -65,9 +65,9 @@ impl Experience {
     }
 
     /// Adds a path that contributed `square` (the sum of squares over the picture).
-    pub fn add(&mut self, light: usize, numbers: [f32; 2], square: f64) {
+    pub fn add(&mut self, LightId(light): LightId, numbers: [f32; 2], square: f64) {
         let [row, column] = numbers.map(|c| ((c * SIDE as f32) as usize).min(SIDE - 1));
-        let cell = &mut self.lights[light][row * SIDE + column];
+        let cell = &mut self.lights[light as usize][row * SIDE + column];
         cell[0] += 1.0;
         cell[1] += square;
     }
@@ -96,7 +96,7 @@ impl Experience {
             of_light.push(share * second_moment.sqrt());
             grids.push(worthwhile.then(|| GridDensity::new(SIDE, &density)));
         }
-        let learnt = defensive_over(&of_light, |l| f64::from(plain.probability(l as u32)));
+        let learnt = defensive_over(&of_light, |l| f64::from(plain.probability(LightId(l as u32))));
         Guide { lights: AliasTable::new(&learnt), grids }
     }
 }

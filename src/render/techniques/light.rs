@@ -8,7 +8,7 @@ use crate::film::{Filter, Sensor, Splats};
 use crate::geometry::Ray;
 use crate::render::paths::{Encounter, Layout, Place, Scattering, TransportMode, Vertex, Walk, Workspace, adjoint};
 use crate::sampling::{Draw, balance_heuristic};
-use crate::scene::{Emission, GuidedPair, Scene, Surface};
+use crate::scene::{Emission, GuidedPair, LightId, Scene, Surface};
 use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
 use glam::Vec3;
 
@@ -31,8 +31,8 @@ pub struct LightTracer<'a> {
 /// How a light path started.
 #[derive(Debug)]
 pub struct Start {
-    /// Index of its light.
-    pub light: u32,
+    /// Its light.
+    pub light: LightId,
     /// Where it left it.
     pub emission: Emission,
     /// The guided pair of random numbers, after the guide has moved it.
@@ -92,13 +92,14 @@ impl LightTracer<'_> {
         // Point, wavelengths and direction first: that is where the picture of a caustic comes from.
         let scene = self.scene;
         let u = place.sobol.group(place.index, 0);
-        let Some(Draw { index: light_index, probability, .. }) = self.guide.sample_light(u[5]) else { return };
-        let light = &scene.lights[light_index];
+        let Some(Draw { index, probability, .. }) = self.guide.sample_light(u[5]) else { return };
+        let id = LightId(index as u32);
+        let light = scene.light(id);
         let wavelengths = wavelengths.unwrap_or_else(|| light.wavelengths.sample(u[2]));
         let aim = if self.caustics_only { scene.caustic_aim } else { None }.unwrap_or(scene.everything());
         let (mut point, mut direction) = ([u[0], u[1]], [u[3], u[4]]);
         let pair = light.guided_pair();
-        let density = self.guide.warp(light_index, pair, &mut point, &mut direction);
+        let density = self.guide.warp(id, pair, &mut point, &mut direction);
         let Some(mut emission) = light.emit(scene, &aim, point, direction) else { return };
         emission.weight /= density;
         workspace.spectra.begin(wavelengths);
@@ -109,7 +110,7 @@ impl LightTracer<'_> {
         workspace.interiors.reset(&inside);
         let spectrum = workspace.spectra.spectrum(scene, light.spectrum) * (1.0 / probability);
         let start = Start {
-            light: light_index as u32,
+            light: id,
             numbers: if pair == Some(GuidedPair::Point) { point } else { direction },
             spectrum,
             power: spectrum * emission.weight,
@@ -153,7 +154,7 @@ impl LightTracer<'_> {
                 }
                 first = first.then(vertex);
                 // What is lit directly belongs to camera paths, and all that follows from it.
-                let local = self.scene.lights[start.light as usize].is_local();
+                let local = self.scene.light(start.light).is_local();
                 if self.caustics_only && first == First::Diffuse && !local {
                     return;
                 }
@@ -183,7 +184,7 @@ impl LightTracer<'_> {
 
     /// Whether light paths find what arrives, by the table of [`super::techniques`].
     fn owns(&self, start: &Start, arrival: &Arrival) -> bool {
-        let local = self.scene.lights[start.light as usize].is_local();
+        let local = self.scene.light(start.light).is_local();
         !self.caustics_only
             || match arrival.first {
                 First::Nothing => false,
@@ -218,7 +219,7 @@ pub struct Splatter<'a> {
     /// What the film gets.
     pub splats: Splats,
     /// Light and guided numbers of the last path that left one.
-    pub start: Option<(u32, [f32; 2])>,
+    pub start: Option<(LightId, [f32; 2])>,
     /// Of the path under way: see [`Techniques::light_path_density`].
     density: Option<LightPathDensity>,
     /// The sensor's, at the wavelengths of the path under way.
@@ -241,7 +242,7 @@ impl<'a> Splatter<'a> {
     /// A light that the camera sees directly: its own surface is where the path "ends".
     fn splat_emitter<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start) {
         let scene = walk.scene;
-        let Some(area) = scene.lights[start.light as usize].emitting_area() else { return };
+        let Some(area) = scene.light(start.light).emitting_area() else { return };
         let from = start.emission.start;
         let Some(seen) = scene.camera.connect(from.point, [0.5; 2], self.filter.radius()) else { return };
         let to_camera = seen.lens - from.point;

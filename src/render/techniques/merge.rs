@@ -39,7 +39,7 @@ impl Collector for PhotonCollector {
     fn arrive<const INTERIORS: bool>(&mut self, walk: &mut Walk, start: &Start, arrival: Arrival) {
         let vertex = arrival.vertex;
         // On rough surfaces camera paths find all that they can.
-        let has_extent = walk.scene.lights[start.light as usize].has_extent();
+        let has_extent = walk.scene.light(start.light).has_extent();
         if vertex.bsdf.is_rough() && (arrival.first != First::Specular || has_extent) {
             return;
         }

@@ -24,7 +24,7 @@
 
 use super::guide::Guide;
 use crate::sampling::balance_heuristic;
-use crate::scene::{Exit, Scene};
+use crate::scene::{Exit, LightId, Scene};
 use crate::spectrum::SampledSpectrum;
 use std::f32::consts::FRAC_1_PI;
 
@@ -89,7 +89,7 @@ impl Techniques {
     }
 
     /// Whether light paths start from a light.
-    fn draws(&self, light: u32) -> bool {
+    fn draws(&self, light: LightId) -> bool {
         matches!(self, Self::CameraAndLight { guide, .. } if guide.probability(light) > 0.0)
     }
 
@@ -98,7 +98,7 @@ impl Techniques {
     }
 
     /// Weight of a camera path that ran into a light along specular surfaces.
-    pub fn camera_weight_of_caustic(&self, scene: &Scene, light: u32, seen: Seen, exit: &Exit) -> SampledSpectrum {
+    pub fn camera_weight_of_caustic(&self, scene: &Scene, light: LightId, seen: Seen, exit: &Exit) -> SampledSpectrum {
         let weight = match seen {
             Seen::Nothing | Seen::RoughThroughSpecular => 1.0,
             Seen::Directly(camera) => self
@@ -117,7 +117,7 @@ impl Techniques {
     }
 
     /// Whether camera paths ask a local light at a diffuse surface, having seen what they have before it.
-    pub fn camera_owns_local_light(&self, light: u32, seen: Seen) -> bool {
+    pub fn camera_owns_local_light(&self, light: LightId, seen: Seen) -> bool {
         match seen {
             Seen::Nothing | Seen::RoughThroughSpecular => true,
             Seen::Directly(_) | Seen::RoughDirectly { .. } => !self.draws(light),
@@ -127,7 +127,7 @@ impl Techniques {
 
     /// Whether camera paths look for a light that is no local one at a rough surface that focuses, having seen what they
     /// have before it.
-    pub fn camera_owns_glossy_caustic(&self, light: u32, seen: Seen) -> bool {
+    pub fn camera_owns_glossy_caustic(&self, light: LightId, seen: Seen) -> bool {
         match seen {
             Seen::Nothing | Seen::RoughDirectly { then_matte: false, .. } | Seen::RoughThroughSpecular => true,
             Seen::Directly(_) | Seen::RoughDirectly { then_matte: true, .. } => !self.draws(light),
@@ -138,7 +138,7 @@ impl Techniques {
     /// Whether there is something for merging to find on rough surfaces: caustics of lights without extent.
     pub fn merges_on_rough(&self, scene: &Scene) -> bool {
         self.guide().is_some_and(|guide| {
-            (0..scene.lights.len()).any(|i| guide.probability(i as u32) > 0.0 && !scene.lights[i].has_extent())
+            (0..scene.lights.len()).any(|i| guide.probability(LightId(i as u32)) > 0.0 && !scene.lights[i].has_extent())
         })
     }
 
@@ -152,7 +152,7 @@ impl Techniques {
     /// the same probability both ways; at rough vertices the densities there and back differ by the masking of the two
     /// directions alone, which is left out), so the ratio needs no bookkeeping along the path. Weights are right whatever
     /// is left out, as both sides leave it out: they are functions of the path and the lane.
-    pub fn light_path_density(&self, scene: &Scene, light: u32, exit: &Exit) -> Option<LightPathDensity> {
+    pub fn light_path_density(&self, scene: &Scene, light: LightId, exit: &Exit) -> Option<LightPathDensity> {
         let (Self::CameraAndLight { light_paths_per_camera_path, guide, .. }, Some(aim)) = (self, &scene.caustic_aim)
         else {
             return None;
@@ -161,7 +161,7 @@ impl Techniques {
         if drawn == 0.0 {
             return None;
         }
-        let source = &scene.lights[light as usize];
+        let source = scene.light(light);
         let density = source.emission_density(exit, aim)? * guide.density(light, source, exit, aim);
         Some(LightPathDensity(drawn * density))
     }

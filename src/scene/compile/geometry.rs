@@ -5,9 +5,9 @@ use super::materials::Materials;
 use super::normalize::Normalization;
 use super::place::Placed;
 use crate::Result;
-use crate::geometry::{Aabb, Analytic, AnalyticShape, Mesh, Polyhedron};
+use crate::geometry::{Aabb, Analytic, AnalyticId, AnalyticShape, Mesh, Polyhedron};
 use crate::scene::solid::SolidShape;
-use crate::scene::{Black, Material, Object, Solid};
+use crate::scene::{Black, Material, Object, ObjectId, Solid};
 use glam::{DAffine3, Vec2, Vec3};
 use std::ops::Range;
 
@@ -18,9 +18,9 @@ pub struct Geometry {
     pub triangles: Vec<[u32; 3]>,
     pub normals: Vec<Vec3>,
     pub uvs: Vec<Vec2>,
-    pub triangle_objects: Vec<u32>,
+    pub triangle_objects: Vec<ObjectId>,
     pub analytic: Vec<Analytic>,
-    pub analytic_objects: Vec<u32>,
+    pub analytic_objects: Vec<ObjectId>,
     pub objects: Vec<Object>,
     /// What each object has become.
     pub sources: Vec<Source>,
@@ -41,7 +41,7 @@ impl Geometry {
         let normalization = &compiler.normalization;
         let mut geometry = Self::default();
         for (object, placed) in compiler.description.objects.iter().zip(placed) {
-            let index = geometry.objects.len() as u32;
+            let index = ObjectId(geometry.objects.len() as u32);
             let (material, two_sided) =
                 object.material.map_or((Material::Black(Black), false), |m| materials.materials[m]);
             let (bounds, source) = match placed {
@@ -68,7 +68,7 @@ impl Geometry {
         Ok(geometry)
     }
 
-    fn add_analytic(&mut self, analytic: Analytic, object: u32) -> Aabb {
+    fn add_analytic(&mut self, analytic: Analytic, object: ObjectId) -> Aabb {
         let bounds = analytic.bounds();
         self.analytic.push(analytic);
         self.analytic_objects.push(object);
@@ -80,7 +80,7 @@ impl Geometry {
         &mut self,
         mut mesh: Mesh,
         is_glass: bool,
-        object: u32,
+        object: ObjectId,
         normalization: &Normalization,
     ) -> (Aabb, Source) {
         mesh.positions.iter_mut().for_each(|p| *p = normalization.point(*p));
@@ -108,10 +108,10 @@ impl Geometry {
                 Source::Triangles(range) => SolidShape::triangles(range.start as usize..range.end as usize),
                 Source::Analytic(..) | Source::Polyhedron => {
                     analytic += 1;
-                    SolidShape::Analytic(analytic - 1)
+                    SolidShape::Analytic(AnalyticId(analytic - 1))
                 }
             };
-            solids.extend(Solid::of(index, &object.material, object.bounds, shape));
+            solids.extend(Solid::of(ObjectId(index), &object.material, object.bounds, shape));
         }
         solids.sort_by(|a, b| b.bounds.half_area().total_cmp(&a.bounds.half_area()));
         solids

@@ -6,14 +6,14 @@ use super::normalize::power_of_two_above;
 use super::spectra::Role;
 use crate::Result;
 use crate::color::{Observer, xyz_of_emission};
-use crate::geometry::{Aabb, Patch, triangle_area};
+use crate::geometry::{Aabb, Patch, TriangleId, triangle_area};
 use crate::math;
 use crate::sampling::AliasTable;
 use crate::scene::description::{self, LightDescription, ObjectDescription, ShapeDescription};
 use crate::scene::solid::any_overlaps;
 use crate::scene::{
-    Aim, AreaLight, AreaShape, BeamLight, DirectionalLight, EnvironmentLight, Light, LightKind, PointLight, Solid,
-    SpotLight,
+    Aim, AreaLight, AreaShape, BeamLight, DirectionalLight, EnvironmentLight, Light, LightId, LightKind, PointLight,
+    Solid, SpotLight,
 };
 use crate::spectrum::{LAMBDA_MAX_NM, LAMBDA_MIN_NM, Spectrum, WavelengthDensity};
 use glam::DVec3;
@@ -24,8 +24,8 @@ pub struct Lights {
     pub sampled: AliasTable,
     pub caustic: AliasTable,
     pub emitting: AliasTable,
-    pub infinite: Vec<u32>,
-    pub local: Vec<u32>,
+    pub infinite: Vec<LightId>,
+    pub local: Vec<LightId>,
     pub wavelengths: WavelengthDensity,
     pub radiance_scale: f64,
     /// A sphere around everything that can focus light.
@@ -76,7 +76,7 @@ pub fn compile(
     };
     let (mut sampled, mut caustic, mut emitting) = (Vec::new(), Vec::new(), Vec::new());
     for raw in raw {
-        let index = lights.lights.len() as u32;
+        let index = LightId(lights.lights.len() as u32);
         let factor = raw.factor / radiance_scale;
         let light = Light {
             spectrum: compiler.spectra.add(&raw.spectrum, factor),
@@ -210,7 +210,7 @@ fn triangle_light(shape: &ShapeDescription, range: std::ops::Range<u32>, geometr
         })
         .collect();
     let area = areas.iter().sum::<f64>() as f32;
-    (AreaShape::Triangles { first: range.start, table: AliasTable::new(&areas) }, area)
+    (AreaShape::Triangles { first: TriangleId(range.start), table: AliasTable::new(&areas) }, area)
 }
 
 /// A sphere around everything that can focus light; `None` if nothing can.

@@ -1,7 +1,7 @@
 //! Surfaces that points can be drawn from uniformly by area.
 
 use super::source::EmissionStart;
-use crate::geometry::{Patch, geometric_normal, sample_triangle};
+use crate::geometry::{Patch, TriangleId, geometric_normal, sample_triangle};
 use crate::math;
 use crate::sampling::{AliasTable, concentric_disk, uniform_sphere};
 use crate::scene::Scene;
@@ -12,8 +12,8 @@ use glam::{DVec3, Vec3};
 pub enum AreaShape {
     /// Triangles from `first` on, drawn by area.
     Triangles {
-        /// Index of the first.
-        first: u32,
+        /// The first.
+        first: TriangleId,
         /// Draws one by area.
         table: AliasTable,
     },
@@ -110,7 +110,7 @@ impl AreaShape {
         Some(match self {
             Self::Triangles { first, table } => {
                 let draw = table.sample(u[0])?;
-                let vertices = scene.triangles[*first as usize + draw.index].map(|i| scene.positions[i as usize]);
+                let vertices = scene.triangles[first.0 as usize + draw.index].map(|i| scene.positions[i as usize]);
                 let weights = sample_triangle([draw.rest, u[1]]);
                 let normal = geometric_normal(vertices[0], vertices[1], vertices[2])?.as_vec3();
                 let parts = std::array::from_fn::<Vec3, 3, _>(|i| vertices[i] * weights[i]);

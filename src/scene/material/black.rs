@@ -1,7 +1,7 @@
 //! A surface that reflects nothing, such as that of a light.
 
 use super::capabilities::Capabilities;
-use super::parameter::MediumId;
+use crate::scene::MediumId;
 
 /// Reflects nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]

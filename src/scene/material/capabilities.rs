@@ -1,6 +1,6 @@
 //! What the rest of the crate asks of a material.
 
-use super::parameter::MediumId;
+use crate::scene::MediumId;
 
 /// What every material states. No method has a default, so that a new material cannot inherit a wrong answer.
 pub(super) trait Capabilities {

@@ -1,7 +1,8 @@
 //! Metal.
 
 use super::capabilities::{Capabilities, LARGEST_FOCUSING_ALPHA};
-use super::parameter::{MediumId, Parameter};
+use super::parameter::Parameter;
+use crate::scene::MediumId;
 
 /// Metal, smooth or rough.
 #[derive(Debug, Clone, Copy, PartialEq)]

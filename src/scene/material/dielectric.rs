@@ -1,7 +1,7 @@
 //! The boundary of a transparent volume, such as glass or water.
 
 use super::capabilities::{Capabilities, LARGEST_FOCUSING_ALPHA};
-use super::parameter::MediumId;
+use crate::scene::MediumId;
 
 /// The boundary of a transparent volume, smooth or rough.
 #[derive(Debug, Clone, Copy, PartialEq)]

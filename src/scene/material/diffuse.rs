@@ -1,7 +1,8 @@
 //! The matte material.
 
 use super::capabilities::Capabilities;
-use super::parameter::{MediumId, Parameter};
+use super::parameter::Parameter;
+use crate::scene::MediumId;
 
 /// Lambertian reflection.
 #[derive(Debug, Clone, Copy, PartialEq)]

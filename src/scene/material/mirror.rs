@@ -1,7 +1,8 @@
 //! The perfect mirror.
 
 use super::capabilities::Capabilities;
-use super::parameter::{MediumId, Parameter};
+use super::parameter::Parameter;
+use crate::scene::MediumId;
 
 /// Perfect mirror.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -14,9 +14,10 @@ pub use conductor::ConductorMaterial;
 pub use dielectric::DielectricMaterial;
 pub use diffuse::DiffuseMaterial;
 pub use mirror::MirrorMaterial;
-pub use parameter::{MediumId, Parameter, SpectrumId};
+pub use parameter::Parameter;
 
 use crate::optics::ior::IndexOfRefraction;
+use crate::scene::{MediumId, SpectrumId};
 use capabilities::Capabilities;
 
 /// A surface.
