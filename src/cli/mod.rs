@@ -38,7 +38,7 @@ struct Cli {
 enum Command {
     /// Render a scene to EXR and PNG
     Render(Box<render::RenderArgs>),
-    /// Check scenes, or print the JSON Schema of the scene format
+    /// Check scenes, write them for other renderers, or print the format: schema or reference
     Scene(scene::SceneArgs),
     /// Print the glass catalogue, or the index of refraction of one of its entries
     Glass(glass::GlassArgs),
