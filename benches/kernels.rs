@@ -132,9 +132,9 @@ fn bsdfs(criterion: &mut Criterion) {
         });
     }
     let (_, diffuse) = kinds[0];
-    each(&mut group, "diffuse: eval and pdf", &points, |u| {
+    each(&mut group, "diffuse: value and density", &points, |u| {
         let [wo, wi] = [[u[0], u[1]], [u[2], u[3]]].map(cosine_hemisphere);
-        (diffuse.eval(&frame, wo, wi), diffuse.pdf(&frame, wo, wi))
+        diffuse.evaluate(&frame, wo, wi)
     });
     let glass = Indices { eta: std::array::from_fn(|k| 1.53 - 0.002 * k as f64), dispersive: true };
     let plain = Indices { eta: [1.5168; 8], dispersive: false };

@@ -5,7 +5,8 @@
 mod common;
 
 use abbe::bsdf::{
-    Bsdf, Conductor, Density, Dielectric, Ggx, Indices, Lanes, Outgoing, RoughConductor, RoughDielectric,
+    Branching, Bsdf, Carried, Conductor, Density, Dielectric, Ggx, Indices, Lanes, NEVER, Outgoing, Parting,
+    RoughConductor, RoughDielectric, ScatteringModel,
 };
 use abbe::film::Film;
 use abbe::geometry::Frame;
@@ -35,6 +36,16 @@ fn metal(alpha: f32) -> RoughConductor {
     RoughConductor { facets: Conductor { eta, k, eta_outside: [1.0; LANES] }, ggx: Ggx::new(alpha) }
 }
 
+/// A path that has just started.
+fn carried() -> Carried {
+    Carried::new(0, Branching { parting: Parting::Ways(1), least_share: NEVER })
+}
+
+/// f · |cos θ_i|.
+fn value(model: &impl ScatteringModel, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+    model.evaluate(frame, wo, wi).map_or(SampledSpectrum::ZERO, |evaluation| evaluation.value)
+}
+
 fn frame() -> Frame {
     let geometric = DVec3::new(0.2, 0.9, -0.3).normalize();
     Frame { geometric, shading: geometric.as_vec3() }
@@ -58,12 +69,12 @@ fn reciprocity() {
         for i in 0..2000 {
             let u = sobol.group(i, 0);
             let wo = direction(89.0 * f64::from(u[3]), 0.3);
-            let sample = boundary.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]);
+            let sample = boundary.sample(&frame(), wo, &carried(), [u[0], u[1]], u[2]);
             let Some((sample, wi)) = sample.and_then(|sample| Some((sample, sample.wi.shared()?))) else { continue };
             let crosses = sample.crosses;
-            let there = boundary.eval(&frame(), wo, wi).lanes();
+            let there = value(&boundary, &frame(), wo, wi).lanes();
             let (reversed, turned) = boundary.reversed(&frame(), crosses);
-            let back = reversed.eval(&turned, wi, wo).lanes();
+            let back = value(&reversed, &turned, wi, wo).lanes();
             let (cos_i, cos_o) = (frame().cos_shading(wi).abs(), frame().cos_shading(wo).abs());
             for k in 0..LANES {
                 let (from, to) = (boundary.boundary.from.eta[k], boundary.boundary.to.eta[k]);
@@ -78,8 +89,8 @@ fn reciprocity() {
         assert!(compared > 8000, "{alpha}: {compared}");
         let metal = metal(alpha);
         let (a, b) = (direction(40.0, 0.0), direction(41.0, 3.1));
-        let there = metal.eval(&frame(), a, b).lane(0) / frame().cos_shading(b);
-        let back = metal.eval(&frame(), b, a).lane(0) / frame().cos_shading(a);
+        let there = value(&metal, &frame(), a, b).lane(0) / frame().cos_shading(b);
+        let back = value(&metal, &frame(), b, a).lane(0) / frame().cos_shading(a);
         assert!((there / back - 1.0).abs() < 1e-4, "{alpha}: {there} {back}");
     }
 }
@@ -104,7 +115,7 @@ fn furnace() {
                 let alone = |lane: usize| {
                     let boundary = glass(alpha, Lanes::Only(lane), leaving);
                     energy(4096, 7, |u| {
-                        let sample = boundary.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]);
+                        let sample = boundary.sample(&frame(), wo, &carried(), [u[0], u[1]], u[2]);
                         let Some(sample) = sample else { return 0.0 };
                         let lit = sample.weight.lane(lane);
                         assert!(lit <= 1.0 + 1e-5, "{alpha} {degrees}: a weight of {lit}");
@@ -115,7 +126,7 @@ fn furnace() {
                     energy(1 << 15, 8, |u| {
                         let hero = (u[3] * LANES as f32) as usize;
                         let boundary = RoughDielectric { hero, ..glass(alpha, Lanes::Shared, leaving) };
-                        let sample = boundary.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]);
+                        let sample = boundary.sample(&frame(), wo, &carried(), [u[0], u[1]], u[2]);
                         let Some(sample) = sample else { return 0.0 };
                         let (lit, sum) = (sample.weight.lane(lane), sample.odds.unwrap().sum());
                         assert!((sum / LANES as f32 - 1.0).abs() < 1e-4, "odds add up to {sum}");
@@ -147,7 +158,7 @@ fn furnace_where_lanes_part() {
             let parting = RoughDielectric { parts: true, ..glass(alpha, Lanes::Shared, leaving) };
             for lane in [0, 7] {
                 let parted = energy(8192, 9, |u| {
-                    let sample = parting.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]);
+                    let sample = parting.sample(&frame(), wo, &carried(), [u[0], u[1]], u[2]);
                     let Some(sample) = sample else { return 0.0 };
                     if let (Outgoing::PerLane(directions), Density::PerLane(pdf)) = (sample.wi, sample.pdf) {
                         assert_eq!(directions[lane].is_some(), pdf.lane(lane) > 0.0);
@@ -156,7 +167,7 @@ fn furnace_where_lanes_part() {
                 });
                 let boundary = glass(alpha, Lanes::Only(lane), leaving);
                 let alone = energy(8192, 10, |u| {
-                    let sample = boundary.sample(&frame(), wo, SampledSpectrum::ONE, [u[0], u[1], u[2]]);
+                    let sample = boundary.sample(&frame(), wo, &carried(), [u[0], u[1]], u[2]);
                     sample.map_or(0.0, |sample| sample.weight.lane(lane))
                 });
                 assert!((parted - alone).abs() < 5e-3, "{alpha} {degrees} {leaving} {lane}: {parted} {alone}");
@@ -176,10 +187,10 @@ fn metals() {
             let (eta, k) = (SampledSpectrum::splat(1e-3), SampledSpectrum::splat(1e3));
             let perfect = RoughConductor { facets: Conductor { eta, k, ..metal(0.1).facets }, ggx: Ggx::new(alpha) };
             let e = energy(8192, 3, |u| {
-                let Some(sample) = perfect.sample(&frame(), wo, [u[0], u[1]]) else { return 0.0 };
+                let Some(sample) = perfect.sample(&frame(), wo, &carried(), [u[0], u[1]], 0.0) else { return 0.0 };
                 let wi = sample.wi.shared().unwrap();
-                let pdf = perfect.pdf(&frame(), wo, wi);
-                let value = perfect.eval(&frame(), wo, wi).lane(0);
+                let evaluation = perfect.evaluate(&frame(), wo, wi).unwrap();
+                let (pdf, value) = (evaluation.pdf.shared().unwrap(), evaluation.value.lane(0));
                 let tolerance = 1e-3 + 1e-5 / alpha;
                 assert!(
                     (pdf / sample.pdf.shared().unwrap() - 1.0).abs() < tolerance,

@@ -4,7 +4,10 @@
 #[path = "common/render.rs"]
 mod common;
 
-use abbe::bsdf::{Conductor, Dielectric, Diffuse, Ggx, Indices, Lanes, RoughConductor, RoughDielectric};
+use abbe::bsdf::{
+    Branching, Carried, Conductor, Dielectric, Diffuse, Ggx, Indices, Lanes, NEVER, Parting, RoughConductor,
+    RoughDielectric, ScatteringModel,
+};
 use abbe::film::Filter;
 use abbe::geometry::{Frame, sample_triangle};
 use abbe::math;
@@ -129,6 +132,16 @@ fn warps() {
     assert_fits("disk", &counts, &[1.0 / 400.0; 400], SAMPLES);
 }
 
+/// A path that has just started.
+fn carried() -> Carried {
+    Carried::new(0, Branching { parting: Parting::Ways(1), least_share: NEVER })
+}
+
+/// The density with which a reflecting model draws a direction.
+fn density(model: &impl ScatteringModel, frame: &Frame, wo: Vec3, wi: Vec3) -> f32 {
+    model.evaluate(frame, wo, wi).and_then(|evaluation| evaluation.pdf.shared()).unwrap_or(0.0)
+}
+
 #[test]
 fn diffuse() {
     let bsdf = Diffuse { reflectance: SampledSpectrum::splat(0.5) };
@@ -137,14 +150,14 @@ fn diffuse() {
     for (what, shading) in [("diffuse", geometric), ("diffuse, tilted normal", tilted)] {
         let frame = Frame { geometric, shading: shading.as_vec3() };
         let wo = (geometric + DVec3::new(0.3, 0.0, 0.0)).normalize().as_vec3();
-        let sample = |i| bsdf.sample(&frame, wo, pair(i, 0)).and_then(|s| s.wi.shared());
-        test_directions(what, shading, 0.0, sample, |d| bsdf.pdf(&frame, wo, d));
+        let sample = |i| bsdf.sample(&frame, wo, &carried(), pair(i, 0), 0.0).and_then(|s| s.wi.shared());
+        test_directions(what, shading, 0.0, sample, |d| density(&bsdf, &frame, wo, d));
         for i in 0..1000 {
-            let Some(s) = bsdf.sample(&frame, wo, pair(i, 0)) else { continue };
+            let Some(s) = bsdf.sample(&frame, wo, &carried(), pair(i, 0), 0.0) else { continue };
             let wi = s.wi.shared().unwrap();
-            let pdf = bsdf.pdf(&frame, wo, wi);
+            let pdf = density(&bsdf, &frame, wo, wi);
             assert!((s.pdf.shared().unwrap() / pdf - 1.0).abs() < 1e-4);
-            let weight = bsdf.eval(&frame, wo, wi).lanes()[0] / pdf;
+            let weight = bsdf.evaluate(&frame, wo, wi).unwrap().value.lane(0) / pdf;
             assert!((s.weight.lanes()[0] - weight).abs() < 1e-4, "{:?} {weight}", s.weight);
         }
     }
@@ -476,17 +489,17 @@ fn rough_surfaces() {
         let bsdf = RoughDielectric { boundary, ggx: Ggx::new(alpha), lanes, hero: 0, odds, parts: false };
         let sample = |i| {
             let hero = (uniform(i, 3) * 8.0) as usize;
-            let u = [uniform(i, 0), uniform(i, 1), uniform(i, 2)];
-            RoughDielectric { hero, ..bsdf }.sample(&frame, wo, SampledSpectrum::ONE, u)?.wi.shared()
+            let bsdf = RoughDielectric { hero, ..bsdf };
+            bsdf.sample(&frame, wo, &carried(), [uniform(i, 0), uniform(i, 1)], uniform(i, 2))?.wi.shared()
         };
         let pdf = |wi| {
-            let own = bsdf.lobe(&frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| lobe.own_pdf);
+            let own = bsdf.evaluate(&frame, wo, wi).map_or(SampledSpectrum::ZERO, |evaluation| evaluation.own_pdf);
             if let Lanes::Only(lane) = lanes { own.lane(lane) } else { own.mean() }
         };
         test_directions(&format!("rough glass, {alpha}, {lanes:?}"), geometric, -1.0, sample, pdf);
     }
     let (eta, k) = (SampledSpectrum::splat(0.2), SampledSpectrum::splat(3.0));
     let metal = RoughConductor { facets: Conductor { eta, k, eta_outside: [1.0; 8] }, ggx: Ggx::new(0.4) };
-    let sample = |i| metal.sample(&frame, wo, pair(i, 0)).and_then(|s| s.wi.shared());
-    test_directions("rough metal", geometric, -1.0, sample, |wi| metal.pdf(&frame, wo, wi));
+    let sample = |i| metal.sample(&frame, wo, &carried(), pair(i, 0), 0.0).and_then(|s| s.wi.shared());
+    test_directions("rough metal", geometric, -1.0, sample, |wi| density(&metal, &frame, wo, wi));
 }

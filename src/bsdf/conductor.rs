@@ -1,7 +1,7 @@
 //! The smooth metal.
 
 use super::mirror::mirror_direction;
-use super::{BsdfSample, Carried, Density, ScatteringModel};
+use super::{BsdfSample, Carried, Evaluation, ScatteringModel};
 use crate::geometry::Frame;
 use crate::optics::fresnel_conductor;
 use crate::spectrum::{LANES, SampledSpectrum};
@@ -19,13 +19,6 @@ pub struct Conductor {
 }
 
 impl Conductor {
-    /// The mirror direction, weighted lane by lane.
-    #[inline(always)]
-    pub fn sample(&self, frame: &Frame, wo: Vec3) -> Option<BsdfSample> {
-        let cos_theta = frame.geometric.dot(wo.as_dvec3().normalize()).abs();
-        Some(BsdfSample::mirrored(mirror_direction(frame, wo), self.reflectance(cos_theta)))
-    }
-
     /// Reflected share of unpolarised light that arrives with this cosine, in each lane.
     pub fn reflectance(&self, cos_theta: f64) -> SampledSpectrum {
         let (eta, k) = (self.eta.lanes(), self.k.lanes());
@@ -40,20 +33,13 @@ impl ScatteringModel for Conductor {
     const ROUGH: bool = false;
     const TRANSMITS: bool = false;
 
-    fn eval(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
-        SampledSpectrum::ZERO
-    }
-
     #[inline(always)]
     fn sample(&self, frame: &Frame, wo: Vec3, _: &Carried, _: [f32; 2], _: f32) -> Option<BsdfSample> {
-        Self::sample(self, frame, wo)
+        let cos_theta = frame.geometric.dot(wo.as_dvec3().normalize()).abs();
+        Some(BsdfSample::mirrored(mirror_direction(frame, wo), self.reflectance(cos_theta)))
     }
 
-    fn pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> Density {
-        Density::Delta
-    }
-
-    fn own_pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
-        SampledSpectrum::ZERO
+    fn evaluate(&self, _: &Frame, _: Vec3, _: Vec3) -> Option<Evaluation> {
+        None
     }
 }

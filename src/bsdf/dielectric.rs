@@ -1,7 +1,7 @@
 //! The smooth boundary between two transparent media.
 
 use super::carried::Lanes;
-use super::{Aside, BsdfSample, Carried, Density, Outgoing, ScatteringModel};
+use super::{Aside, BsdfSample, Carried, Density, Evaluation, Outgoing, ScatteringModel};
 use crate::geometry::Frame;
 use crate::optics::{self, Refraction};
 use crate::spectrum::{LANES, SampledSpectrum};
@@ -82,32 +82,6 @@ impl Dielectric {
         self.from.dispersive || self.to.dispersive
     }
 
-    /// Chooses between reflection and refraction by `u`, or takes both where the path forks: the reflection is put aside then.
-    /// Where lanes share the ray and the boundary is dispersive, refraction gives a direction to each lane that goes on.
-    #[inline(always)]
-    pub fn sample(&self, frame: &Frame, wo: Vec3, carried: &Carried, u: f32) -> Option<BsdfSample> {
-        let incidence = Incidence::new(-wo, frame.geometric);
-        let division = self.divide(&incidence, carried.lanes, carried.throughput);
-        let forks = carried.forks(division.reflected);
-        let aside = forks.then(|| Aside { wi: incidence.reflected(), weight: division.reflectance });
-        let DielectricChoice { refracted, weight } = match forks {
-            true => DielectricChoice { refracted: true, weight: division.transmittance() },
-            false => division.choose(u),
-        };
-        // The sample is large: each kind is built where it is returned.
-        let sample = |wi| BsdfSample { wi, weight, pdf: Density::Delta, crosses: refracted, odds: None, aside };
-        if !refracted {
-            return Some(sample(Outgoing::Shared(incidence.reflected())));
-        }
-        if carried.lanes != Lanes::Shared || !self.is_dispersive() {
-            let wi = self.refracted(&incidence, carried.lanes.single().unwrap_or(0))?;
-            return Some(sample(Outgoing::Shared(wi)));
-        }
-        let mut directions = [None; LANES];
-        carried.ways().for_each(|lane| directions[lane] = self.refracted(&incidence, lane));
-        Some(sample(Outgoing::PerLane(directions)))
-    }
-
     /// How flux is divided between reflection and refraction.
     pub fn divide(&self, incidence: &Incidence, lanes: Lanes, throughput: SampledSpectrum) -> Division {
         let f = |lane: usize| reflectance(optics::refract(incidence.cos_theta, self.from.eta[lane], self.to.eta[lane]));
@@ -169,21 +143,34 @@ impl ScatteringModel for Dielectric {
     const ROUGH: bool = false;
     const TRANSMITS: bool = true;
 
-    fn eval(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
-        SampledSpectrum::ZERO
-    }
-
+    /// Chooses between reflection and refraction by `choice`, or takes both where the path forks: the reflection is put aside then.
+    /// Where lanes share the ray and the boundary is dispersive, refraction gives a direction to each lane that goes on.
     #[inline(always)]
     fn sample(&self, frame: &Frame, wo: Vec3, carried: &Carried, _: [f32; 2], choice: f32) -> Option<BsdfSample> {
-        Self::sample(self, frame, wo, carried, choice)
+        let incidence = Incidence::new(-wo, frame.geometric);
+        let division = self.divide(&incidence, carried.lanes, carried.throughput);
+        let forks = carried.forks(division.reflected);
+        let aside = forks.then(|| Aside { wi: incidence.reflected(), weight: division.reflectance });
+        let DielectricChoice { refracted, weight } = match forks {
+            true => DielectricChoice { refracted: true, weight: division.transmittance() },
+            false => division.choose(choice),
+        };
+        // The sample is large: each kind is built where it is returned.
+        let sample = |wi| BsdfSample { wi, weight, pdf: Density::Delta, crosses: refracted, odds: None, aside };
+        if !refracted {
+            return Some(sample(Outgoing::Shared(incidence.reflected())));
+        }
+        if carried.lanes != Lanes::Shared || !self.is_dispersive() {
+            let wi = self.refracted(&incidence, carried.lanes.single().unwrap_or(0))?;
+            return Some(sample(Outgoing::Shared(wi)));
+        }
+        let mut directions = [None; LANES];
+        carried.ways().for_each(|lane| directions[lane] = self.refracted(&incidence, lane));
+        Some(sample(Outgoing::PerLane(directions)))
     }
 
-    fn pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> Density {
-        Density::Delta
-    }
-
-    fn own_pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
-        SampledSpectrum::ZERO
+    fn evaluate(&self, _: &Frame, _: Vec3, _: Vec3) -> Option<Evaluation> {
+        None
     }
 }
 

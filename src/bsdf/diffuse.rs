@@ -1,6 +1,6 @@
 //! Lambertian reflection.
 
-use super::{BsdfSample, Carried, Density, ScatteringModel};
+use super::{BsdfSample, Carried, Evaluation, ScatteringModel};
 use crate::geometry::Frame;
 use crate::sampling::cosine_hemisphere;
 use crate::spectrum::SampledSpectrum;
@@ -14,49 +14,22 @@ pub struct Diffuse {
     pub reflectance: SampledSpectrum,
 }
 
-impl Diffuse {
-    /// f · |cos θ_i|.
-    pub fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        if frame.same_side(wo, wi) {
-            self.reflectance * (frame.cos_shading(wi).max(0.0) * FRAC_1_PI)
-        } else {
-            SampledSpectrum::ZERO
-        }
-    }
-
-    /// Draws in proportion to cos θ about the shading normal.
-    #[inline(always)]
-    pub fn sample(&self, frame: &Frame, wo: Vec3, u: [f32; 2]) -> Option<BsdfSample> {
-        let wi = frame.world_from_local(cosine_hemisphere(u));
-        let pdf = frame.cos_shading(wi) * FRAC_1_PI;
-        (pdf > 0.0 && frame.same_side(wo, wi)).then_some(BsdfSample::reflected(wi, self.reflectance, pdf))
-    }
-
-    /// cos θ_i / π.
-    pub fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> f32 {
-        if frame.same_side(wo, wi) { frame.cos_shading(wi).max(0.0) * FRAC_1_PI } else { 0.0 }
-    }
-}
-
 impl ScatteringModel for Diffuse {
     const SPECULAR: bool = false;
     const ROUGH: bool = false;
     const TRANSMITS: bool = false;
 
-    fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        Self::eval(self, frame, wo, wi)
-    }
-
+    /// Draws in proportion to cos θ about the shading normal.
     #[inline(always)]
     fn sample(&self, frame: &Frame, wo: Vec3, _: &Carried, u: [f32; 2], _: f32) -> Option<BsdfSample> {
-        Self::sample(self, frame, wo, u)
+        let wi = frame.world_from_local(cosine_hemisphere(u));
+        let pdf = frame.cos_shading(wi) * FRAC_1_PI;
+        (pdf > 0.0 && frame.same_side(wo, wi)).then_some(BsdfSample::reflected(wi, self.reflectance, pdf))
     }
 
-    fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Density {
-        Density::Shared(Self::pdf(self, frame, wo, wi))
-    }
-
-    fn own_pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        SampledSpectrum::splat(Self::pdf(self, frame, wo, wi))
+    #[inline]
+    fn evaluate(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Option<Evaluation> {
+        let pdf = frame.cos_shading(wi).max(0.0) * FRAC_1_PI;
+        frame.same_side(wo, wi).then(|| Evaluation::reflected(self.reflectance * pdf, pdf))
     }
 }

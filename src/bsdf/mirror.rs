@@ -1,6 +1,6 @@
 //! The perfect mirror.
 
-use super::{BsdfSample, Carried, Density, ScatteringModel};
+use super::{BsdfSample, Carried, Evaluation, ScatteringModel};
 use crate::geometry::Frame;
 use crate::optics;
 use crate::spectrum::SampledSpectrum;
@@ -13,14 +13,6 @@ pub struct Mirror {
     pub reflectance: SampledSpectrum,
 }
 
-impl Mirror {
-    /// The mirror direction.
-    #[inline(always)]
-    pub fn sample(&self, frame: &Frame, wo: Vec3) -> Option<BsdfSample> {
-        Some(BsdfSample::mirrored(mirror_direction(frame, wo), self.reflectance))
-    }
-}
-
 /// Mirror image of `wo` about the geometric normal, in f64 as every specular direction.
 pub(super) fn mirror_direction(frame: &Frame, wo: Vec3) -> Vec3 {
     optics::reflect(-wo.as_dvec3().normalize(), frame.geometric).as_vec3()
@@ -31,20 +23,12 @@ impl ScatteringModel for Mirror {
     const ROUGH: bool = false;
     const TRANSMITS: bool = false;
 
-    fn eval(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
-        SampledSpectrum::ZERO
-    }
-
     #[inline(always)]
     fn sample(&self, frame: &Frame, wo: Vec3, _: &Carried, _: [f32; 2], _: f32) -> Option<BsdfSample> {
-        Self::sample(self, frame, wo)
+        Some(BsdfSample::mirrored(mirror_direction(frame, wo), self.reflectance))
     }
 
-    fn pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> Density {
-        Density::Delta
-    }
-
-    fn own_pdf(&self, _: &Frame, _: Vec3, _: Vec3) -> SampledSpectrum {
-        SampledSpectrum::ZERO
+    fn evaluate(&self, _: &Frame, _: Vec3, _: Vec3) -> Option<Evaluation> {
+        None
     }
 }

@@ -1,4 +1,4 @@
-//! Scattering at a surface, evaluated at a path's wavelengths: one file a model, each with `eval`, `sample`, `pdf`.
+//! Scattering at a surface, evaluated at a path's wavelengths: one file a model, each with `sample` and `evaluate`.
 //!
 //! Directions point away from the surface; `wo` is where the path came from. Everything spectral is resolved before
 //! sampling starts, so a [`Bsdf`] is a small Copy value. Throughput weights are f · cos θ / pdf. Values at transparent
@@ -20,7 +20,7 @@ pub use diffuse::Diffuse;
 pub use microfacet::Ggx;
 pub use mirror::Mirror;
 pub use rough_conductor::RoughConductor;
-pub use rough_dielectric::{Lobe, RoughDielectric};
+pub use rough_dielectric::RoughDielectric;
 
 use crate::geometry::Frame;
 use crate::spectrum::{LANES, SampledSpectrum};
@@ -110,6 +110,8 @@ pub struct Evaluation {
     pub value: SampledSpectrum,
     /// Density by which a sample of this direction is balanced against other techniques.
     pub pdf: Density,
+    /// Density in solid angle with which each lane would draw the direction if it were alone.
+    pub own_pdf: SampledSpectrum,
     /// Whether the directions lie on different sides of the surface.
     pub crosses: bool,
 }
@@ -129,27 +131,30 @@ impl BsdfSample {
     }
 }
 
+impl Evaluation {
+    /// A direction of reflection that all lanes draw with the same density.
+    #[inline(always)]
+    pub fn reflected(value: SampledSpectrum, pdf: f32) -> Self {
+        Self { value, pdf: Density::Shared(pdf), own_pdf: SampledSpectrum::splat(pdf), crosses: false }
+    }
+}
+
 /// What every model states. No method has a default, so that a new model cannot inherit a wrong answer; models of
-/// boundaries that light passes through are met by [`Bsdf::evaluate`] and what follows it.
-trait ScatteringModel {
-    /// Whether the distribution is a delta, for which `eval` and `pdf` are 0.
+/// boundaries that light passes through are met by [`Bsdf::radiance_change`] and [`Bsdf::reversed`] besides.
+pub trait ScatteringModel {
+    /// Whether the distribution is a delta, of which nothing can be evaluated.
     const SPECULAR: bool;
     /// Whether it has a lobe about the direction of reflection or refraction, wide or narrow.
     const ROUGH: bool;
     /// Whether light passes through the surface.
     const TRANSMITS: bool;
 
-    /// f · |cos θ_i|, per sr, for unit directions.
-    fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum;
-
-    /// Draws a direction by two random numbers, and what kind of scattering takes place by a third.
+    /// Draws a direction by two random numbers, and what kind of scattering takes place by a third, for the lanes that the
+    /// path carries. `None` if the path ends.
     fn sample(&self, frame: &Frame, wo: Vec3, carried: &Carried, u: [f32; 2], choice: f32) -> Option<BsdfSample>;
 
-    /// Density of `sample` in solid angle, by which it is balanced against other techniques.
-    fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Density;
-
-    /// Density in solid angle with which each lane would draw a direction if it were alone.
-    fn own_pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum;
+    /// Evaluates the model for unit directions; `None` where nothing is scattered.
+    fn evaluate(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Option<Evaluation>;
 }
 
 /// Calls the same method of whichever model it is.
@@ -172,7 +177,7 @@ fn capabilities<M: ScatteringModel>(_: &M) -> (bool, bool, bool) {
 }
 
 impl Bsdf {
-    /// Whether the distribution is a delta, for which `eval` and `pdf` are 0.
+    /// Whether the distribution is a delta, of which nothing can be evaluated.
     #[inline]
     pub fn is_specular(&self) -> bool {
         for_model!(self, model => capabilities(model).0)
@@ -190,11 +195,6 @@ impl Bsdf {
         for_model!(self, model => capabilities(model).2)
     }
 
-    /// f · |cos θ_i|, per sr, for unit directions.
-    pub fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        for_model!(self, model => ScatteringModel::eval(model, frame, wo, wi))
-    }
-
     /// Draws a direction by two random numbers, and what kind of scattering takes place by a third, for the lanes that the
     /// path carries. `None` if the path ends.
     #[inline(always)]
@@ -206,26 +206,27 @@ impl Bsdf {
         direction: [f32; 2],
         choice: f32,
     ) -> Option<BsdfSample> {
-        for_model!(self, model => ScatteringModel::sample(model, frame, wo, carried, direction, choice))
+        for_model!(self, model => model.sample(frame, wo, carried, direction, choice))
     }
 
-    /// Density of `sample` in solid angle, by which it is balanced against other techniques.
-    pub fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Density {
-        for_model!(self, model => ScatteringModel::pdf(model, frame, wo, wi))
-    }
-
-    /// `eval` and `pdf` at once; `None` where nothing is scattered.
+    /// Evaluates the model for unit directions; `None` where nothing is scattered, at no wavelength of the path.
     pub fn evaluate(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Option<Evaluation> {
-        if let Self::RoughDielectric(b) = self {
-            return b.evaluate(frame, wo, wi);
-        }
-        let value = self.eval(frame, wo, wi);
-        (!value.is_zero()).then(|| Evaluation { value, pdf: self.pdf(frame, wo, wi), crosses: false })
+        self.evaluate_lobe(frame, wo, wi).filter(|evaluation| !evaluation.value.is_zero())
     }
 
-    /// Density in solid angle with which each lane would draw a direction if it were alone.
+    /// Returns f · |cos θ_i|, per sr, for unit directions; 0 for deltas.
+    pub fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+        self.evaluate_lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |evaluation| evaluation.value)
+    }
+
+    /// Returns the density in solid angle with which each lane would draw a direction if it were alone.
     pub fn own_pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        for_model!(self, model => ScatteringModel::own_pdf(model, frame, wo, wi))
+        self.evaluate_lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |evaluation| evaluation.own_pdf)
+    }
+
+    #[inline(always)]
+    fn evaluate_lobe(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Option<Evaluation> {
+        for_model!(self, model => model.evaluate(frame, wo, wi))
     }
 
     /// (η_from / η_to)² of each lane for what crosses, else 1: what radiance from there is multiplied by.

@@ -62,14 +62,11 @@ pub struct RoughDielectric {
 }
 
 /// What the lanes make of a direction.
-#[derive(Debug, Clone, Copy)]
-pub struct Lobe {
+struct Lobe {
     /// f · |cos θ_i| of each lane.
-    pub value: SampledSpectrum,
+    value: SampledSpectrum,
     /// The density with which each lane would draw the direction if it were alone.
-    pub own_pdf: SampledSpectrum,
-    /// Whether the direction is on the other side.
-    pub crosses: bool,
+    own_pdf: SampledSpectrum,
 }
 
 /// A surface seen from somewhere.
@@ -98,30 +95,12 @@ impl RoughDielectric {
         (high - low) * sin > PARTING_SPREAD * ggx.alpha() * (ratio * cos - cos_t).abs()
     }
 
-    /// Value and densities; `None` where nothing is scattered.
-    pub fn lobe(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Option<Lobe> {
-        let crosses = crosses(frame, wi)?;
-        self.lobe_towards(&self.view(frame, wo)?, wi.as_dvec3().normalize(), crosses)
-    }
-
-    /// f · |cos θ_i|.
-    pub fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        self.lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| lobe.value)
-    }
-
-    /// Value and density by which samples are balanced; `None` where nothing is scattered.
-    pub fn evaluate(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Option<Evaluation> {
-        let lobe = self.lobe(frame, wo, wi)?;
-        let pdf = Density::PerLane(self.balance_pdf(&lobe));
-        Some(Evaluation { value: lobe.value, pdf, crosses: lobe.crosses })
-    }
-
     /// The density by which a lane's sample of this direction is balanced against other techniques: that of the mixture
     /// where lanes stay together, the lane's own where they part.
-    pub(crate) fn balance_pdf(&self, lobe: &Lobe) -> SampledSpectrum {
+    fn balance_pdf(&self, own_pdf: SampledSpectrum, crosses: bool) -> SampledSpectrum {
         match self.lanes {
-            Lanes::Shared if !(self.parts && lobe.crosses) => SampledSpectrum::splat(self.mixture(&lobe.own_pdf)),
-            _ => lobe.own_pdf,
+            Lanes::Shared if !(self.parts && crosses) => SampledSpectrum::splat(self.mixture(&own_pdf)),
+            _ => own_pdf,
         }
     }
 
@@ -143,28 +122,6 @@ impl RoughDielectric {
         }
         let boundary = Dielectric { from: self.boundary.to, to: self.boundary.from };
         (Self { boundary, ..*self }, Frame { geometric: -frame.geometric, shading: -frame.shading })
-    }
-
-    /// Draws a facet among those that `wo` sees by `u[0]` and `u[1]`, and whether it refracts by `u[2]`; `None` if light
-    /// that comes from there meets a second facet, which this model leaves out.
-    pub fn sample(&self, frame: &Frame, wo: Vec3, throughput: SampledSpectrum, u: [f32; 3]) -> Option<BsdfSample> {
-        let view = self.view(frame, wo)?;
-        let m = self.ggx.sample_visible(view.normal, view.wo, [u[0], u[1]]);
-        if self.parts && self.lanes == Lanes::Shared {
-            return self.sample_parting(frame, &view, m, throughput, u[2]);
-        }
-        let lane = match self.lanes {
-            Lanes::Shared => self.hero,
-            Lanes::Bundled(lane) | Lanes::Only(lane) => lane,
-        };
-        let (from, to) = self.indices(lane);
-        let cos = view.wo.dot(m).clamp(0.0, 1.0);
-        let refraction = optics::refract(cos, from, to);
-        let (wi, refracts) = match refraction {
-            Some(r) if f64::from(u[2]) >= r.reflectance => (r.direction(-view.wo, m, cos, from, to), true),
-            _ => (optics::reflect(-view.wo, m), false),
-        };
-        self.together(frame, &view, wi, refracts)
     }
 
     /// Lanes that go on together in a direction that one of them has drawn.
@@ -256,7 +213,7 @@ impl RoughDielectric {
         }
         // Facets that are seen scatter with the density of their directions; of that, this share gets out.
         let lit = lit_of_visible(view.lambda, self.ggx.lambda(wi.dot(view.normal)), crosses) as f32;
-        Some(Lobe { value: own_pdf * lit, own_pdf, crosses })
+        Some(Lobe { value: own_pdf * lit, own_pdf })
     }
 
     /// Indices of a lane, which differ at least by a little.
@@ -298,20 +255,32 @@ impl ScatteringModel for RoughDielectric {
     const ROUGH: bool = true;
     const TRANSMITS: bool = true;
 
-    fn eval(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        Self::eval(self, frame, wo, wi)
-    }
-
-    #[inline(always)]
+    /// Draws a facet among those that `wo` sees by `u`, and whether it refracts by `choice`; `None` if light
+    /// that comes from there meets a second facet, which this model leaves out.
     fn sample(&self, frame: &Frame, wo: Vec3, carried: &Carried, u: [f32; 2], choice: f32) -> Option<BsdfSample> {
-        Self::sample(self, frame, wo, carried.throughput, [u[0], u[1], choice])
+        let view = self.view(frame, wo)?;
+        let m = self.ggx.sample_visible(view.normal, view.wo, u);
+        if self.parts && self.lanes == Lanes::Shared {
+            return self.sample_parting(frame, &view, m, carried.throughput, choice);
+        }
+        let lane = match self.lanes {
+            Lanes::Shared => self.hero,
+            Lanes::Bundled(lane) | Lanes::Only(lane) => lane,
+        };
+        let (from, to) = self.indices(lane);
+        let cos = view.wo.dot(m).clamp(0.0, 1.0);
+        let refraction = optics::refract(cos, from, to);
+        let (wi, refracts) = match refraction {
+            Some(r) if f64::from(choice) >= r.reflectance => (r.direction(-view.wo, m, cos, from, to), true),
+            _ => (optics::reflect(-view.wo, m), false),
+        };
+        self.together(frame, &view, wi, refracts)
     }
 
-    fn pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Density {
-        Density::PerLane(self.lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| self.balance_pdf(&lobe)))
-    }
-
-    fn own_pdf(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        self.lobe(frame, wo, wi).map_or(SampledSpectrum::ZERO, |lobe| lobe.own_pdf)
+    fn evaluate(&self, frame: &Frame, wo: Vec3, wi: Vec3) -> Option<Evaluation> {
+        let crosses = crosses(frame, wi)?;
+        let Lobe { value, own_pdf } = self.lobe_towards(&self.view(frame, wo)?, wi.as_dvec3().normalize(), crosses)?;
+        let pdf = Density::PerLane(self.balance_pdf(own_pdf, crosses));
+        Some(Evaluation { value, pdf, own_pdf, crosses })
     }
 }

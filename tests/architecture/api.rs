@@ -87,7 +87,7 @@ fn signature<'a>(code: &[&'a str]) -> BTreeSet<&'a str> {
             ">" if i > 0 && code[i - 1] == "-" => {}
             "(" | "<" | "[" => depth += 1,
             "{" if is_enum => depth += 1,
-            "{" | ";" | "=" => break,
+            "{" | ";" | "=" if depth == 0 => break,
             ")" | ">" | "]" | "}" => depth -= 1,
             "," if depth == 0 => break,
             _ => drop(names.insert(token)),
@@ -190,6 +190,8 @@ fn the_checker_sees_planted_items() {
     assert_eq!(found("mod inner; pub use inner::*;", "pub enum E { A }", &[]), ["a: E"]);
     let both = "mod inner; pub use inner::{S, T}; pub fn used() -> Option<S> {}";
     assert!(found(both, "pub struct S { pub x: T } pub enum T { A }", &[]).is_empty());
+    let arrays = "mod inner; pub use inner::S; pub fn used(u: [u8; 2]) -> Option<S> {}";
+    assert!(found(arrays, "pub struct S {}", &[]).is_empty());
     let methods = "pub struct T<A>(A); impl<A: B> T<A> { pub fn used() {} pub const fn m() {} fn n() {} }";
     assert_eq!(found("mod inner; pub use inner::T;", methods, &["T"]), ["a: T::m"]);
 }
