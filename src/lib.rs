@@ -100,6 +100,7 @@ mod error;
 pub mod film;
 #[cfg(feature = "render")]
 pub mod geometry;
+mod image;
 #[cfg(feature = "render")]
 pub mod io;
 pub mod math;
@@ -115,6 +116,7 @@ pub mod sampling;
 pub mod scene;
 pub mod spectrum;
 
+pub use self::image::Image;
 pub use error::{Error, ErrorKind, Result, nearest_name};
 #[cfg(feature = "render")]
 pub use project::{DevelopSettings, Project, load, load_str, render};

@@ -5,7 +5,7 @@ mod operators;
 pub use operators::{TONEMAPS, Tonemap};
 
 use crate::color::{RgbSpace, srgb_encode};
-use crate::math;
+use crate::{Image, math};
 use glam::DVec3;
 
 /// A picture ready to be shown: sRGB, 8 bits a channel, row by row from the top left.
@@ -29,11 +29,15 @@ const GLARE: f64 = 0.02;
 const HEADROOM: f64 = 4.0;
 
 /// Develops a picture from XYZ.
-pub fn develop(xyz: &[[f64; 3]], width: u32, exposure_ev: Option<f64>, tonemap: Tonemap) -> Picture {
+///
+/// # Panics
+/// If there are other than three channels.
+pub fn develop(xyz: &Image, exposure_ev: Option<f64>, tonemap: Tonemap) -> Picture {
     let exposure_ev = exposure_ev.unwrap_or_else(|| automatic_exposure(xyz));
     let factor = math::exp(exposure_ev * std::f64::consts::LN_2);
     let mut outside = 0usize;
-    let rgb8 = xyz
+    let rgb8: Vec<[u8; 3]> = xyz
+        .triples()
         .iter()
         .map(|&xyz| {
             let linear = RgbSpace::srgb().rgb_from_xyz * (DVec3::from(xyz) * factor);
@@ -42,14 +46,14 @@ pub fn develop(xyz: &[[f64; 3]], width: u32, exposure_ev: Option<f64>, tonemap: 
             encode(tonemap.apply(inside))
         })
         .collect();
-    let out_of_gamut = outside as f64 / xyz.len().max(1) as f64;
-    Picture { width, rgb8, exposure_ev, out_of_gamut }
+    let out_of_gamut = outside as f64 / rgb8.len().max(1) as f64;
+    Picture { width: xyz.size()[0], rgb8, exposure_ev, out_of_gamut }
 }
 
 /// Stops that bring the geometric mean of the luminance to middle grey, but leave all but the brightest pixels within
 /// `HEADROOM` of white. Black pixels do not count: a caustic on black is exposed for the caustic.
-pub fn automatic_exposure(xyz: &[[f64; 3]]) -> f64 {
-    let mut luminance: Vec<f64> = xyz.iter().map(|p| p[1]).filter(|y| *y > 0.0 && y.is_finite()).collect();
+pub fn automatic_exposure(xyz: &Image) -> f64 {
+    let mut luminance: Vec<f64> = xyz.plane(1).filter(|y| *y > 0.0 && y.is_finite()).collect();
     if luminance.is_empty() {
         return 0.0;
     }
@@ -94,22 +98,26 @@ fn encode(linear: DVec3) -> [u8; 3] {
 mod tests {
     use super::*;
 
+    fn shown(xyz: [f64; 3], exposure_ev: f64, tonemap: Tonemap) -> Picture {
+        develop(&Image::xyz(1, vec![xyz]).unwrap(), Some(exposure_ev), tonemap)
+    }
+
     #[test]
     fn grey_stays_grey_and_white_is_white() {
         let white = RgbSpace::srgb().white_xyz();
         for y in [0.0, 0.18, 0.5, 1.0] {
-            let picture = develop(&[(white * y).to_array()], 1, Some(0.0), Tonemap::Srgb);
+            let picture = shown((white * y).to_array(), 0.0, Tonemap::Srgb);
             let expected = (srgb_encode(y) * 255.0 + 0.5) as u8;
             assert_eq!(picture.rgb8[0], [expected; 3]);
             assert_eq!(picture.out_of_gamut, 0.0);
         }
-        assert_eq!(develop(&[(white * 0.25).to_array()], 1, Some(2.0), Tonemap::Srgb).rgb8[0], [255; 3]);
+        assert_eq!(shown((white * 0.25).to_array(), 2.0, Tonemap::Srgb).rgb8[0], [255; 3]);
     }
 
     /// A laser line is outside sRGB: it loses saturation, not hue, and is counted.
     #[test]
     fn saturated_colors_are_counted() {
-        let picture = develop(&[[0.1, 0.5, 0.05]], 1, Some(0.0), Tonemap::Srgb);
+        let picture = shown([0.1, 0.5, 0.05], 0.0, Tonemap::Srgb);
         assert_eq!(picture.out_of_gamut, 1.0);
         let [r, g, b] = picture.rgb8[0];
         assert!(g > r && g > b, "{r} {g} {b}");
@@ -117,15 +125,15 @@ mod tests {
 
     #[test]
     fn automatic_exposure_brings_grey_to_the_key() {
-        let picture = vec![[0.5, 0.5, 0.5]; 100];
-        assert!((automatic_exposure(&picture) - (0.18f64 / 0.5).log2()).abs() < 1e-12);
-        assert_eq!(automatic_exposure(&[[0.0; 3]; 4]), 0.0);
+        let exposure = |xyz: Vec<[f64; 3]>| automatic_exposure(&Image::xyz(2, xyz).unwrap());
+        assert!((exposure(vec![[0.5; 3]; 100]) - (0.18f64 / 0.5).log2()).abs() < 1e-12);
+        assert_eq!(exposure(vec![[0.0; 3]; 4]), 0.0);
     }
 
     #[test]
     fn operators() {
         let white = RgbSpace::srgb().white_xyz();
-        let level = |tonemap| develop(&[white.to_array()], 1, Some(0.0), tonemap).rgb8[0][1];
+        let level = |tonemap| shown(white.to_array(), 0.0, tonemap).rgb8[0][1];
         assert_eq!(level(Tonemap::Reinhard), (srgb_encode(0.5) * 255.0 + 0.5) as u8);
         assert_eq!(level(Tonemap::Exponential), (srgb_encode(1.0 - math::exp(-1.0)) * 255.0 + 0.5) as u8);
     }

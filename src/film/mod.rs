@@ -19,6 +19,7 @@ pub use sensor::{PICTURE_CHANNELS, Sensor, value};
 pub use splats::Splats;
 pub use tile::{CameraTile, SamplePlace};
 
+use crate::Image;
 use replicates::Replicates;
 
 /// Independently scrambled replicates of the camera part.
@@ -154,8 +155,13 @@ impl Film {
         std::array::from_fn(|c| self.value(pixel, c))
     }
 
-    /// All pixels, row by row.
-    pub fn to_xyz(&self) -> Vec<Xyz> {
+    /// Returns the picture in XYZ.
+    pub fn to_image(&self) -> Image {
+        Image::new([self.width, self.height], &["X", "Y", "Z"], self.to_xyz().into_flattened())
+    }
+
+    /// Returns XYZ of all pixels, row by row.
+    fn to_xyz(&self) -> Vec<Xyz> {
         (0..self.pixels()).map(|i| self.xyz(i)).collect()
     }
 }

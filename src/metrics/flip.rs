@@ -4,6 +4,7 @@
 //! HyAB distance; where edges or points differ as well, the difference counts for more.
 
 use super::{Displayed, Pair, stats};
+use crate::Image;
 use crate::color::RgbSpace;
 use crate::color::space::lab_from_xyz;
 use crate::math;
@@ -31,23 +32,23 @@ const FEATURE_WIDTH: f64 = 0.082;
 const FEATURE_EXPONENT: f64 = 0.5;
 
 /// The mean of a [`flip_map`] over the pixels of `pair` that count, in [0, 1].
-pub fn flip(pair: &Pair, map: &[f64]) -> f64 {
-    stats::mean(&pair.counted_values(map).collect::<Vec<_>>())
+pub fn flip(pair: &Pair, map: &Image) -> f64 {
+    stats::mean(&pair.counted_values(map.plane(0)).collect::<Vec<_>>())
 }
 
-/// FLIP of every pixel, in [0, 1]: the variant for pictures of low dynamic range, over sRGB clipped to [0, 1]. `width` is
-/// that of both pictures.
-pub fn flip_map(width: usize, test: &Displayed, reference: &Displayed, pixels_per_degree: f64) -> Vec<f64> {
-    let [test, reference] = [test, reference].map(|picture| Seen::new(width, picture, pixels_per_degree));
+/// FLIP of every pixel, in [0, 1]: the variant for pictures of low dynamic range, over sRGB clipped to [0, 1]. Both
+/// pictures have the same size.
+pub fn flip_map(test: &Displayed, reference: &Displayed, pixels_per_degree: f64) -> Image {
+    let size = test.size();
+    let [test, reference] = [test, reference].map(|picture| Seen::new(picture, pixels_per_degree));
     let largest = largest_difference();
-    (0..test.lab.len())
-        .map(|i| {
-            let color = redistributed(math::pow(hyab(test.lab[i], reference.lab[i]), COLOR_EXPONENT), largest);
-            let [edges, points] = [0, 1].map(|k| (test.features[k][i] - reference.features[k][i]).abs());
-            let feature = math::pow(edges.max(points) / 2f64.sqrt(), FEATURE_EXPONENT);
-            if color == 0.0 { 0.0 } else { math::pow(color, 1.0 - feature) }
-        })
-        .collect()
+    let error = |i: usize| {
+        let color = redistributed(math::pow(hyab(test.lab[i], reference.lab[i]), COLOR_EXPONENT), largest);
+        let [edges, points] = [0, 1].map(|k| (test.features[k][i] - reference.features[k][i]).abs());
+        let feature = math::pow(edges.max(points) / 2f64.sqrt(), FEATURE_EXPONENT);
+        if color == 0.0 { 0.0 } else { math::pow(color, 1.0 - feature) }
+    };
+    Image::new(size, &["FLIP"], (0..test.lab.len()).map(error).collect())
 }
 
 /// A picture as the eye has it.
@@ -59,7 +60,8 @@ struct Seen {
 }
 
 impl Seen {
-    fn new(width: usize, picture: &Displayed, pixels_per_degree: f64) -> Self {
+    fn new(picture: &Displayed, pixels_per_degree: f64) -> Self {
+        let width = picture.size()[0] as usize;
         let (space, white) = (RgbSpace::srgb(), RgbSpace::srgb().white_xyz());
         let opponent: Vec<DVec3> =
             picture.linear_srgb().map(|rgb| opponent_from_relative(space.xyz_from_rgb * rgb / white)).collect();
@@ -195,14 +197,13 @@ fn normalized(kernel: Vec<f64>) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    fn shown(rgb: &[[f64; 3]]) -> Displayed {
-        let xyz: Vec<[f64; 3]> =
-            rgb.iter().map(|rgb| (RgbSpace::srgb().xyz_from_rgb * DVec3::from(*rgb)).to_array()).collect();
-        Displayed::new(&xyz, 1.0)
+    fn shown(width: u32, rgb: &[[f64; 3]]) -> Displayed {
+        let xyz = rgb.iter().map(|rgb| (RgbSpace::srgb().xyz_from_rgb * DVec3::from(*rgb)).to_array()).collect();
+        Displayed::new(&Image::xyz(width, xyz).unwrap(), 1.0)
     }
 
-    fn map(width: usize, test: &[[f64; 3]], reference: &[[f64; 3]]) -> Vec<f64> {
-        flip_map(width, &shown(test), &shown(reference), FLIP_PIXELS_PER_DEGREE)
+    fn map(width: u32, test: &[[f64; 3]], reference: &[[f64; 3]]) -> Vec<f64> {
+        flip_map(&shown(width, test), &shown(width, reference), FLIP_PIXELS_PER_DEGREE).plane(0).collect()
     }
 
     #[test]

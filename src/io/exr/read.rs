@@ -7,7 +7,7 @@
 use super::channels::{self, Candidate, Colors, Preference};
 use super::spectral;
 use crate::color::{RgbSpace, xyz_from_xy};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Image, Result};
 use exr::block::UncompressedBlock;
 use exr::block::reader::ChunksReader;
 use exr::meta::MetaData;
@@ -38,10 +38,8 @@ pub enum Source {
 /// A picture in XYZ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadPicture {
-    /// Pixels a row.
-    pub width: u32,
-    /// X, Y, Z, row by row from the top left.
-    pub xyz: Vec<[f64; 3]>,
+    /// The channels X, Y, Z.
+    pub xyz: Image,
     /// What they were read from.
     pub source: Source,
 }
@@ -89,7 +87,7 @@ pub fn decode(bytes: &[u8], preference: Preference, layer: Option<&str>) -> Resu
     for block in chunks.map_err(|e| not_exr(&e))?.sequential_decompressor(false) {
         window.add_block(&block.map_err(|e| not_exr(&e))?, &header.channels, &factors)?;
     }
-    Ok(ReadPicture { width: window.size.0 as u32, xyz: window.xyz, source })
+    Ok(ReadPicture { xyz: Image::xyz(window.size.0 as u32, window.xyz)?, source })
 }
 
 fn not_exr(error: &exr::error::Error) -> Error {
