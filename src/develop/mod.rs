@@ -4,7 +4,7 @@ mod operators;
 
 pub use operators::{TONEMAPS, Tonemap};
 
-use crate::color::{RgbSpace, srgb_encode};
+use crate::color::{LinearRgb, RgbSpace, gamut, srgb_encode};
 use crate::{Image, math};
 use glam::DVec3;
 
@@ -27,6 +27,8 @@ const KEY: f64 = 0.18;
 const GLARE: f64 = 0.02;
 /// The brightest pixels counted may exceed white by this factor at automatic exposure.
 const HEADROOM: f64 = 4.0;
+/// Colours count as outside sRGB where a component is further below 0 than this share of the largest: more than rounding.
+const OUTSIDE: f64 = 1e-3;
 
 /// Develops a picture from XYZ.
 ///
@@ -41,9 +43,8 @@ pub fn develop(xyz: &Image, exposure_ev: Option<f64>, tonemap: Tonemap) -> Pictu
         .iter()
         .map(|&xyz| {
             let linear = RgbSpace::srgb().rgb_from_xyz * (DVec3::from(xyz) * factor);
-            let (inside, moved) = into_gamut(linear);
-            outside += usize::from(moved);
-            encode(tonemap.apply(inside))
+            outside += usize::from(-linear.min_element() > OUTSIDE * linear.max_element());
+            encode(tonemap.apply(gamut::without_negatives(RgbSpace::srgb(), LinearRgb(linear)).0))
         })
         .collect();
     let out_of_gamut = outside as f64 / rgb8.len().max(1) as f64;
@@ -64,21 +65,6 @@ pub fn automatic_exposure(xyz: &Image) -> f64 {
     let log_mean = luminance.iter().map(|y| math::ln(y.max(floor))).sum::<f64>() / luminance.len() as f64;
     let by_key = KEY / math::exp(log_mean);
     math::ln(by_key.min(HEADROOM / bright)) / std::f64::consts::LN_2
-}
-
-/// Moves a colour with negative components towards the grey of its luminance until they vanish, and tells whether it
-/// was outside by more than rounding.
-fn into_gamut(linear: DVec3) -> (DVec3, bool) {
-    let lowest = linear.min_element();
-    if lowest >= 0.0 {
-        return (linear, false);
-    }
-    let luminance = RgbSpace::srgb().xyz_from_rgb.row(1).dot(linear);
-    if luminance <= 0.0 {
-        return (linear.max(DVec3::ZERO), true);
-    }
-    let inside = DVec3::splat(luminance) + (linear - luminance) * (luminance / (luminance - lowest));
-    (inside.max(DVec3::ZERO), -lowest > 1e-3 * linear.max_element())
 }
 
 /// Too bright colours keep their hue: they are scaled to white's edge halfway between clipping and scaling.
