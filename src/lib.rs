@@ -30,8 +30,8 @@
 //!
 //! * `cli`, on by default: the command `abbe`.
 //! * `render`, which `cli` needs: scenes, the renderer, developing, and files in and out.
-//! * Neither, with `default-features = false`: [`color`], [`spectrum`], [`optics`], [`sampling`] and [`metrics`], which need
-//!   four small crates.
+//! * Neither, with `default-features = false`: [`color`], [`spectrum`], [`optics`], [`sampling`], and [`metrics`] with the
+//!   [`Image`]s that they compare, which need four small crates.
 //!
 //! # The data flow is the architecture
 //!

@@ -1,4 +1,4 @@
-//! Film → picture: exposure, tone mapping, gamut, transfer curve.
+//! Makes a picture to be shown from a film: exposure, gamut, tone mapping, transfer curve.
 
 mod operators;
 
@@ -13,7 +13,7 @@ use glam::DVec3;
 pub struct Picture {
     /// Pixels per row.
     pub width: u32,
-    /// Red, green, blue.
+    /// Red, green and blue of every pixel.
     pub rgb8: Vec<[u8; 3]>,
     /// Stops by which the picture was exposed.
     pub exposure_ev: f64,
@@ -30,7 +30,7 @@ const HEADROOM: f64 = 4.0;
 /// Colours count as outside sRGB where a component is further below 0 than this share of the largest: more than rounding.
 const OUTSIDE: f64 = 1e-3;
 
-/// Develops a picture from XYZ.
+/// Develops a picture in XYZ, with the given exposure in stops or with that of [`automatic_exposure`].
 ///
 /// # Panics
 /// If there are other than three channels.
@@ -51,8 +51,9 @@ pub fn develop(xyz: &Image, exposure_ev: Option<f64>, tonemap: Tonemap) -> Pictu
     Picture { width: xyz.size()[0], rgb8, exposure_ev, out_of_gamut }
 }
 
-/// Stops that bring the geometric mean of the luminance to middle grey, but leave all but the brightest pixels within
-/// `HEADROOM` of white. Black pixels do not count: a caustic on black is exposed for the caustic.
+/// Computes the exposure in stops that brings the geometric mean of the luminance to middle grey, or the largest at which all
+/// but the brightest 2 % of the pixels stay below 4 times white, whichever is less. Black pixels do not count: a caustic on
+/// black is exposed for the caustic.
 pub fn automatic_exposure(xyz: &Image) -> f64 {
     let mut luminance: Vec<f64> = xyz.plane(1).filter(|y| *y > 0.0 && y.is_finite()).collect();
     if luminance.is_empty() {
@@ -60,14 +61,16 @@ pub fn automatic_exposure(xyz: &Image) -> f64 {
     }
     luminance.sort_by(f64::total_cmp);
     let bright = luminance[((1.0 - GLARE) * (luminance.len() - 1) as f64) as usize];
-    // Pixels far below the bright ones are shadow; they do not pull the exposure up without bound.
+    // Pixels far below the bright ones are shadow: they count as brighter than they are, so as not to pull the exposure up
+    // without bound.
     let floor = bright * 1e-3;
     let log_mean = luminance.iter().map(|y| math::ln(y.max(floor))).sum::<f64>() / luminance.len() as f64;
     let by_key = KEY / math::exp(log_mean);
     math::ln(by_key.min(HEADROOM / bright)) / std::f64::consts::LN_2
 }
 
-/// Too bright colours keep their hue: they are scaled to white's edge halfway between clipping and scaling.
+/// Encodes a colour in 8 bits. One that is too bright is scaled until its largest component is 1, and mixed with white the more
+/// the brighter it is.
 fn encode(linear: DVec3) -> [u8; 3] {
     let peak = linear.max_element();
     let shown = if peak > 1.0 {

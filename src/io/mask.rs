@@ -5,7 +5,7 @@ use crate::{Error, ErrorKind, Image, Result};
 use std::io::Cursor;
 use std::path::Path;
 
-/// Most memory that decoding a PNG may take, bytes.
+/// Largest amount of memory that decoding a PNG may take, in bytes.
 const MAX_BYTES: u64 = 4 << 30;
 
 /// Reads a mask as a picture of one channel: the values of a PNG as they are stored, in [0, 1], or the luminance of an EXR.

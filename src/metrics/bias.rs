@@ -4,7 +4,7 @@ use super::{Pair, stats};
 
 /// Edge of the blocks of pixels whose errors are taken as independent.
 const BLOCK: usize = 8;
-/// Fewer blocks than this, and they are made smaller.
+/// Least number of blocks; where there are fewer, they are made smaller.
 const ENOUGH: usize = 30;
 
 /// The mean error of one channel.
@@ -14,19 +14,19 @@ pub struct Bias {
     pub mean: f64,
     /// Half the width of its 95 % confidence interval; NaN for fewer than two blocks.
     pub half_width: f64,
-    /// Mean of R, to be relative to.
+    /// Mean of R, by which `mean` can be divided.
     pub reference: f64,
 }
 
 impl Bias {
-    /// Whether 0 lies outside the interval.
+    /// Returns whether 0 lies outside the interval.
     pub fn is_significant(&self) -> bool {
         self.mean.abs() > self.half_width
     }
 }
 
-/// Mean error of each channel with the 95 % interval of Student's t over blocks of 8 × 8 pixels (smaller ones in small
-/// pictures). Neighbouring pixels share samples through the reconstruction filter, so that single pixels would make
+/// Computes the mean error of each channel with the 95 % interval of Student's t over blocks of 8 × 8 pixels (smaller ones
+/// in small pictures). Neighbouring pixels share samples through the reconstruction filter, so that single pixels would make
 /// the interval too narrow; blocks are nearly independent.
 pub fn bias(pair: &Pair) -> [Bias; 3] {
     let [width, height] = pair.size().map(|n| n as usize);
@@ -53,7 +53,7 @@ pub fn bias(pair: &Pair) -> [Bias; 3] {
     })
 }
 
-/// Σ sums / Σ counts with the half width of its 95 % interval: blocks of several sizes weigh by their counts.
+/// Computes Σ sums / Σ counts and the half width of its 95 % interval. Blocks weigh by their numbers of pixels.
 fn ratio_interval(blocks: &[(f64, f64)]) -> (f64, f64) {
     let n = blocks.len() as f64;
     let count: f64 = blocks.iter().map(|b| b.0).sum();

@@ -9,22 +9,23 @@ use crate::color::space::lab_from_xyz;
 /// CIE ΔE 2000 over the pixels of a picture; about 1 is just noticeable between large patches side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ColorDifference {
-    /// Mean.
+    /// Mean over the pixels.
     pub mean: f64,
-    /// 95 % of the pixels differ less.
+    /// Difference that 95 % of the pixels stay below.
     pub percentile_95: f64,
-    /// Largest.
+    /// Largest difference of any pixel.
     pub max: f64,
 }
 
-/// ΔE 2000 \[CIE15\] of every pixel, in the CIE Lab of sRGB's white D65.
+/// Computes ΔE 2000 \[CIE15\] of every pixel, in CIE Lab with sRGB's white D65, as a picture of one channel. Both pictures have
+/// the same size.
 pub fn color_difference_map(test: &Displayed, reference: &Displayed) -> Image {
     let white = RgbSpace::srgb().white_xyz();
     let difference = |(a, b)| cie2000(lab_from_xyz(a, white), lab_from_xyz(b, white));
     Image::new(test.size(), &["deltaE2000"], test.xyz().zip(reference.xyz()).map(difference).collect())
 }
 
-/// Mean, 95 % quantile and largest of a [`color_difference_map`] over the pixels of `pair` that count.
+/// Sums up a [`color_difference_map`] over the pixels of `pair` that count.
 pub fn color_difference(pair: &Pair, map: &Image) -> ColorDifference {
     let mut values: Vec<f64> = pair.counted_values(map.plane(0)).collect();
     values.sort_by(f64::total_cmp);

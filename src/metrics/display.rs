@@ -27,19 +27,19 @@ impl Displayed {
         self.size
     }
 
-    /// XYZ with white at Y = 1. Colours brighter than white are brought to Y = 1 at their chromaticity; colours outside
-    /// the gamut of any display stay where they are.
+    /// Iterates over the pixels in XYZ, with white at Y = 1. Colours brighter than white are brought to Y = 1 at their
+    /// chromaticity; colours outside the gamut of any display stay where they are.
     pub fn xyz(&self) -> impl ExactSizeIterator<Item = DVec3> {
         self.xyz.iter().map(|xyz| if xyz.y > 1.0 { xyz / xyz.y } else { *xyz })
     }
 
-    /// Linear sRGB, clipped to [0, 1].
+    /// Iterates over the pixels in linear sRGB, clipped to [0, 1].
     pub fn linear_srgb(&self) -> impl ExactSizeIterator<Item = DVec3> {
         let rgb_from_xyz = RgbSpace::srgb().rgb_from_xyz;
         self.xyz.iter().map(move |xyz| (rgb_from_xyz * *xyz).clamp(DVec3::ZERO, DVec3::ONE))
     }
 
-    /// Encoded sRGB in [0, 1].
+    /// Iterates over the pixels in encoded sRGB, in [0, 1].
     pub fn encoded_srgb(&self) -> impl ExactSizeIterator<Item = DVec3> {
         self.linear_srgb().map(|rgb| rgb.map(srgb_encode))
     }

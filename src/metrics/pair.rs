@@ -59,28 +59,28 @@ impl<'a> Pair<'a> {
         self.size
     }
 
-    /// Pixels that count.
+    /// Returns the number of pixels that count.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Mean of the reference over all pixels that count and all channels.
+    /// Returns the mean of the reference over all pixels that count and all channels.
     pub fn mean(&self) -> f64 {
         self.mean
     }
 
-    /// Pixels inside the mask that are NaN or infinite, in the picture and in the reference.
+    /// Returns how many pixels inside the mask are NaN or infinite, in the picture and in the reference.
     pub fn non_finite(&self) -> [usize; 2] {
         self.non_finite
     }
 
-    /// All pixels, with whether they count.
+    /// Iterates over all pixels of picture and reference, each with whether it counts.
     pub fn all(&self) -> impl ExactSizeIterator<Item = (bool, &'a [f64; 3], &'a [f64; 3])> {
         let pixels = self.test.iter().zip(self.reference);
         self.counted.iter().zip(pixels).map(|(&counted, (test, reference))| (counted, test, reference))
     }
 
-    /// The pixels that count: picture and reference.
+    /// Iterates over the pixels of picture and reference that count.
     pub fn pixels(&self) -> impl Iterator<Item = (&'a [f64; 3], &'a [f64; 3])> {
         self.all().filter(|(counted, ..)| *counted).map(|(_, test, reference)| (test, reference))
     }

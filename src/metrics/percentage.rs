@@ -5,16 +5,16 @@ use super::Pair;
 /// Share of m that keeps dark pixels of the reference from deciding alone.
 const FLOOR: f64 = 0.01;
 
-/// The mean over pixels and channels of |I − R| / (|R| + 0.01 m), with m the mean of R; a fraction, not per cent.
+/// Computes the mean over pixels and channels of |I − R| / (|R| + 0.01 m), with m the mean of R; a fraction, not per cent.
 ///
-/// In [0, ∞]; infinite where the reference is black everywhere and the picture is not.
+/// It is in [0, ∞], and infinite where the reference is black everywhere and the picture is not.
 pub fn mape(pair: &Pair) -> f64 {
     let floor = (FLOOR * pair.mean()).abs();
     mean(pair, |test, reference| quotient((test - reference).abs(), reference.abs() + floor))
 }
 
-/// The mean over pixels and channels of 2 |I − R| / (|I| + |R|), where 0 / 0 is 0. In [0, 2]; the same with picture and
-/// reference exchanged.
+/// Computes the mean over pixels and channels of 2 |I − R| / (|I| + |R|), where 0 / 0 is 0. It is in [0, 2], and the same when
+/// picture and reference are exchanged.
 pub fn smape(pair: &Pair) -> f64 {
     mean(pair, |test, reference| quotient(2.0 * (test - reference).abs(), test.abs() + reference.abs()))
 }

@@ -3,8 +3,8 @@
 use super::{Displayed, Pair};
 use crate::math;
 
-/// 10 log₁₀(1 / MSE) in dB, over encoded sRGB in [0, 1]: the pictures as they are shown, peak 1. Infinite for pictures that
-/// look exactly alike. `pair` says which pixels count.
+/// Computes 10 log₁₀(1 / MSE) in dB, over encoded sRGB in [0, 1]: the pictures as they are shown, with peak 1. It is infinite
+/// for pictures that look exactly alike. `pair` says which pixels count.
 pub fn psnr(pair: &Pair, test: &Displayed, reference: &Displayed) -> f64 {
     let squares = test.encoded_srgb().zip(reference.encoded_srgb()).map(|(a, b)| (a - b).length_squared());
     let mse = pair.counted_values(squares).sum::<f64>() / (3 * pair.count()) as f64;

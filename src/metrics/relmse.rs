@@ -8,17 +8,17 @@ const FLOOR: f64 = 0.01;
 /// Share of the pixels that the trimmed error leaves out.
 const TRIMMED: f64 = 0.001;
 
-/// The mean over pixels and channels of (I − R)² / (R² + 0.01 m²), with m the mean of R over all pixels and channels
-/// \[Rousselle2011\].
+/// Computes the mean over pixels and channels of (I − R)² / (R² + 0.01 m²), with m the mean of R over all pixels and
+/// channels \[Rousselle2011\].
 ///
-/// In [0, ∞]; infinite where the reference is black everywhere and the picture is not.
+/// It is in [0, ∞], and infinite where the reference is black everywhere and the picture is not.
 pub fn relative_mse(pair: &Pair) -> f64 {
     let floor = FLOOR * pair.mean() * pair.mean();
     pair.pixels().map(|(test, reference)| pixel_error(test, reference, floor)).sum::<f64>() / pair.count() as f64
 }
 
-/// [`relative_mse`] without the worst 0.1 % of the pixels (rounded up, but never all of them): a few fireflies do not show
-/// in it. m is the mean over all pixels still.
+/// Computes [`relative_mse`] without the worst 0.1 % of the pixels (rounded up, but never all of them), so that a few fireflies
+/// do not show in it. m is still the mean over all pixels.
 pub fn trimmed_relative_mse(pair: &Pair) -> f64 {
     let floor = FLOOR * pair.mean() * pair.mean();
     let mut errors: Vec<f64> = pair.pixels().map(|(test, reference)| pixel_error(test, reference, floor)).collect();
@@ -30,7 +30,8 @@ pub fn trimmed_relative_mse(pair: &Pair) -> f64 {
     errors[..kept].iter().sum::<f64>() / kept as f64
 }
 
-/// The relative error of each pixel, the square root of its part in [`relative_mse`]; 0 where a pixel does not count.
+/// Computes the relative error of each pixel, the square root of its part in [`relative_mse`], as a picture of one channel. It
+/// is 0 where a pixel does not count.
 pub fn relative_error_map(pair: &Pair) -> Image {
     let floor = FLOOR * pair.mean() * pair.mean();
     pair.map("relativeError", |test, reference| pixel_error(test, reference, floor).sqrt())
@@ -39,7 +40,7 @@ pub fn relative_error_map(pair: &Pair) -> Image {
 fn pixel_error(test: &[f64; 3], reference: &[f64; 3], floor: f64) -> f64 {
     let error = |c: usize| {
         let difference = test[c] - reference[c];
-        // Exactly right is right, also where there is nothing to be relative to.
+        // A value that is exactly right has no error, also where R and m are 0.
         if difference == 0.0 { 0.0 } else { difference * difference / (reference[c] * reference[c] + floor) }
     };
     (error(0) + error(1) + error(2)) / 3.0

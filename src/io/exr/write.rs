@@ -1,5 +1,5 @@
-//! OpenEXR output: 32-bit float, scan lines, ZIP; channels R, G, B (linear sRGB) and X, Y, Z, the number of camera samples
-//! `samples`, and the standard error of each value `error.X`, `error.Y`, `error.Z`.
+//! Writes OpenEXR files of 32-bit floats with ZIP compression. Those of films have the channels R, G, B (linear sRGB) and
+//! X, Y, Z, the number of camera samples `samples`, and the standard error of each value `error.X`, `error.Y`, `error.Z`.
 
 use crate::color::RgbSpace;
 use crate::film::Film;
@@ -23,10 +23,10 @@ pub struct Attributes {
     pub observer: &'static str,
 }
 
-/// The channels of a picture.
+/// The channels of a film's file.
 const CHANNELS: [&str; 10] = ["R", "G", "B", "X", "Y", "Z", "samples", "error.X", "error.Y", "error.Z"];
 
-/// Encodes a picture. Also tells how many values did not fit into f32 and became its largest.
+/// Encodes a film. Also returns how many values did not fit into f32 and became its largest number.
 pub fn encode(film: &Film, attributes: &Attributes) -> Result<(Vec<u8>, usize)> {
     let mut overflows = 0;
     let mut narrow = |v: f64| {
