@@ -53,7 +53,7 @@ impl Sensor {
         self
     }
 
-    /// Returns the number of channels.
+    /// How many channels there are.
     pub fn channels(&self) -> usize {
         self.channels
     }
@@ -72,8 +72,7 @@ impl Sensor {
         }
     }
 
-    /// Fills in the factors. `weights` is an array where the sensor has no further channels, so that the compiler knows how many
-    /// there are.
+    /// Its length is known to the compiler where there are as many channels as the picture has.
     #[inline(always)]
     fn fill_weights(&self, wavelengths: &Wavelengths, weights: &mut (impl AsMut<[SampledSpectrum]> + ?Sized)) {
         let rows = self.curves.len() / self.stride;
