@@ -30,8 +30,8 @@
 //!
 //! * `cli`, on by default: the command `abbe`.
 //! * `render`, which `cli` needs: scenes, the renderer, developing, and files in and out.
-//! * Neither, with `default-features = false`: [`color`], [`spectrum`], [`optics`], [`sampling`] and [`metrics`], which need
-//!   four small crates.
+//! * Neither, with `default-features = false`: [`color`], [`spectrum`], [`optics`], [`sampling`], and [`metrics`] with the
+//!   [`Image`]s that they compare, which need four small crates.
 //!
 //! # The data flow is the architecture
 //!
@@ -100,6 +100,7 @@ mod error;
 pub mod film;
 #[cfg(feature = "render")]
 pub mod geometry;
+mod image;
 #[cfg(feature = "render")]
 pub mod io;
 pub mod math;
@@ -115,6 +116,7 @@ pub mod sampling;
 pub mod scene;
 pub mod spectrum;
 
+pub use self::image::Image;
 pub use error::{Error, ErrorKind, Result, nearest_name};
 #[cfg(feature = "render")]
 pub use project::{DevelopSettings, Project, load, load_str, render};

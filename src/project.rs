@@ -66,7 +66,7 @@ pub fn render(project: &Project) -> Rendering {
 impl Film {
     /// Develops the film into a picture to be shown.
     pub fn develop(&self, settings: &DevelopSettings) -> Picture {
-        develop::develop(&self.to_xyz(), self.width(), settings.exposure_ev, settings.tonemap)
+        develop::develop(&self.to_image(), settings.exposure_ev, settings.tonemap)
     }
 }
 

@@ -86,7 +86,8 @@ fn pixels_of(block: usize) -> impl Iterator<Item = usize> + Clone {
 
 /// X, Y, Z of every pixel, of every block, and of the whole picture.
 fn values(film: &Film) -> Vec<f64> {
-    let pixels = film.to_xyz();
+    let picture = film.to_image();
+    let pixels = picture.triples();
     let mean = |of: &mut dyn Iterator<Item = usize>, count: usize| {
         of.fold([0.0; 3], |sum: [f64; 3], i| std::array::from_fn(|c| sum[c] + pixels[i][c] / count as f64))
     };

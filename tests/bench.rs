@@ -171,9 +171,9 @@ fn a_file_as_reference_and_a_mask() {
     let mut render = Command::new(env!("CARGO_BIN_EXE_abbe"));
     render.current_dir(&folder.0).args(["render", "ball.json", "--spp", "64", "-q", "-o", "r.exr"]);
     assert!(render.status().unwrap().success());
-    let mask: Vec<f32> = (0..64).map(|i| if i < 32 { 0.0 } else { 1.0 }).collect();
-    let planes = ["R", "G", "B"].map(|name| (name, mask.clone()));
-    fs::write(folder.0.join("mask.exr"), abbe::io::exr::encode_planes(planes.into(), 8).unwrap()).unwrap();
+    let mask = (0..64).flat_map(|i| if i < 32 { [0.0; 3] } else { [1.0; 3] }).collect();
+    let mask = abbe::Image::new([8, 8], &["R", "G", "B"], mask);
+    fs::write(folder.0.join("mask.exr"), abbe::io::exr::encode_image(&mask).unwrap()).unwrap();
     let relmse = |more: &[&str]| {
         let (code, out, err) =
             folder.bench(&[&["ball.json", "--to-spp", "2", "--reference", "r.exr", "--json", "-q"], more].concat());

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use abbe::io::exr::encode_planes;
-use abbe::io::exr::{Preference, decode};
+use abbe::Image;
+use abbe::io::exr::{Preference, decode, encode_image};
 use serde_json::Value;
 
 /// A folder of its own, removed at the end.
@@ -23,11 +23,18 @@ impl Folder {
 
     /// A picture of `width` × n pixels with X = Y = Z.
     fn grey(&self, name: &str, width: u32, values: &[f32]) {
-        self.planes(name, width, ["X", "Y", "Z"].map(|c| (c, values.to_vec())).into());
+        let pixels = values.iter().map(|v| [f64::from(*v); 3]).collect();
+        self.write(name, &Image::xyz(width, pixels).unwrap());
     }
 
-    fn planes(&self, name: &str, width: u32, planes: Vec<(&str, Vec<f32>)>) {
-        fs::write(self.0.join(name), encode_planes(planes, width).unwrap()).unwrap();
+    /// A picture of `side` × `side` pixels that are all alike: a value for each channel.
+    fn uniform(&self, name: &str, side: u32, pixel: &[(&str, f64)]) {
+        let (channels, values): (Vec<&str>, Vec<f64>) = pixel.iter().copied().unzip();
+        self.write(name, &Image::new([side; 2], &channels, values.repeat((side * side) as usize)));
+    }
+
+    fn write(&self, name: &str, image: &Image) {
+        fs::write(self.0.join(name), encode_image(image).unwrap()).unwrap();
     }
 
     /// Exit code, stdout, stderr.
@@ -130,9 +137,9 @@ fn rgb_and_spectral_pictures() {
     let folder = Folder::new();
     // The equal-energy spectrum: in all bands 1; in XYZ the sums over the observer; in linear sRGB 1.205, 0.948, 0.909.
     let names: Vec<String> = (0..95).map(|i| format!("S0.{},0nm", 360 + 5 * i)).collect();
-    folder.planes("s.exr", 4, names.iter().map(|name| (name.as_str(), vec![1.0; 16])).collect());
-    folder.planes("x.exr", 4, [("X", 1.000_03), ("Y", 1.0), ("Z", 1.000_08)].map(|(n, v)| (n, vec![v; 16])).into());
-    folder.planes("r.exr", 4, [("R", 1.20503), ("G", 0.94827), ("B", 0.90890)].map(|(n, v)| (n, vec![v; 16])).into());
+    folder.uniform("s.exr", 4, &names.iter().map(|name| (name.as_str(), 1.0)).collect::<Vec<_>>());
+    folder.uniform("x.exr", 4, &[("X", 1.000_03), ("Y", 1.0), ("Z", 1.000_08)]);
+    folder.uniform("r.exr", 4, &[("R", 1.20503), ("G", 0.94827), ("B", 0.90890)]);
     for (a, b) in [("s.exr", "x.exr"), ("r.exr", "x.exr"), ("s.exr", "r.exr")] {
         for channels in ["xyz", "rgb"] {
             let report = folder.json(&[a, b, "--channels", channels]);
@@ -161,7 +168,7 @@ fn masks_and_pictures_of_the_difference() {
     let (code, ..) = folder.compare(&["a.exr", "b.exr", "-q", "-o", "d.exr", "-o", "d.png", "--map", "flip"]);
     assert_eq!(code, 0);
     let difference = decode(&fs::read(folder.0.join("d.exr")).unwrap(), Preference::Xyz, None).unwrap();
-    assert!((difference.xyz[0][1] - 0.5).abs() < 1e-6 && difference.xyz[1] == [0.0; 3]);
+    assert!((difference.xyz.triples()[0][1] - 0.5).abs() < 1e-6 && difference.xyz.triples()[1] == [0.0; 3]);
     let picture = image::load_from_memory(&fs::read(folder.0.join("d.png")).unwrap()).unwrap().to_rgb8();
     assert_eq!(picture.dimensions(), (8, 8));
     assert!(picture.get_pixel(0, 0).0.iter().any(|v| *v > 50));
@@ -177,7 +184,7 @@ fn refusals_in_one_line() {
     folder.grey("a.exr", 8, &[0.5; 64]);
     folder.grey("wide.exr", 16, &[0.5; 64]);
     folder.grey("mask.exr", 8, &[0.0; 64]);
-    folder.planes("y.exr", 8, vec![("Y", vec![1.0; 64])]);
+    folder.uniform("y.exr", 8, &[("Y", 1.0)]);
     fs::write(folder.0.join("text.exr"), "no picture").unwrap();
     folder.refuses(&["a.exr", "wide.exr"], 3, &["a.exr has 8x8 pixels, wide.exr has 16x4"]);
     folder.refuses(&["a.exr", "text.exr"], 3, &["text.exr: not an EXR file; expected OpenEXR"]);

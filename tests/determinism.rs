@@ -19,7 +19,7 @@ fn threads<T: Send>(n: usize, work: impl FnOnce() -> T + Send) -> T {
 /// Asserts that two films agree in every bit, once `b` is divided by a power of two.
 fn assert_same_bits(a: &Film, b: &Film, scale: f64, what: &str) {
     let bits = |film: &Film, scale: f64| -> Vec<[u64; 3]> {
-        film.to_xyz().iter().map(|xyz| xyz.map(|v| (v / scale).to_bits())).collect()
+        film.to_image().triples().iter().map(|xyz| xyz.map(|v| (v / scale).to_bits())).collect()
     };
     let (bits_a, bits_b) = (bits(a, 1.0), bits(b, scale));
     let differing = bits_a.iter().zip(&bits_b).filter(|(a, b)| a != b).count();
@@ -28,8 +28,8 @@ fn assert_same_bits(a: &Film, b: &Film, scale: f64, what: &str) {
         panic!(
             "{what}: {differing} of {} pixels differ, first ({x}, {y}): {:?} and {:?}",
             bits_a.len(),
-            a.to_xyz()[first],
-            b.to_xyz()[first].map(|v| v / scale)
+            a.to_image().triples()[first],
+            b.to_image().triples()[first].map(|v| v / scale)
         );
     }
     assert_eq!((a.camera_paths(), a.light_paths()), (b.camera_paths(), b.light_paths()), "{what}");
@@ -41,7 +41,7 @@ fn assert_same_bits(a: &Film, b: &Film, scale: f64, what: &str) {
 fn reference(folder: &SceneFolder) -> (Value, Film) {
     let scene = everything();
     let film = folder.film(&scene);
-    let lit = film.to_xyz().iter().filter(|xyz| xyz[1] > 0.0).count();
+    let lit = film.to_image().triples().iter().filter(|xyz| xyz[1] > 0.0).count();
     assert!(lit > 1000 && film.camera_paths() == 42 * 30 * 6 && film.light_paths() > 0, "{lit}");
     (scene, film)
 }
@@ -57,7 +57,8 @@ fn every_object_and_light_shows_in_the_film() {
         for i in 0..scene[list].as_array().unwrap().len() {
             let mut without = scene.clone();
             let removed = without[list].as_array_mut().unwrap().remove(i);
-            let changed = film.to_xyz().iter().zip(folder.film(&without).to_xyz()).filter(|(a, b)| **a != *b).count();
+            let (with, without) = (film.to_image(), folder.film(&without).to_image());
+            let changed = with.triples().iter().zip(without.triples()).filter(|(a, b)| a != b).count();
             assert!(changed >= 3, "{changed} pixels change without {removed}");
         }
     }
@@ -237,6 +238,6 @@ fn another_seed_gives_another_film() {
     let (mut scene, film) = reference(&folder);
     scene["render"]["seed"] = json!(8);
     let other = folder.film(&scene);
-    let same = film.to_xyz().iter().zip(other.to_xyz()).filter(|(a, b)| **a == *b).count();
+    let same = film.to_image().triples().iter().zip(other.to_image().triples()).filter(|(a, b)| a == b).count();
     assert!(same < 5, "{same} pixels are the same");
 }

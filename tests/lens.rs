@@ -244,7 +244,7 @@ fn lasers_through_an_achromat() {
             scene.as_object_mut().unwrap().remove("environment");
             let film = render_json(&scene).0;
             let (mut sum, mut y) = (0.0, 0.0);
-            for (pixel, xyz) in film.to_xyz().iter().enumerate() {
+            for (pixel, xyz) in film.to_image().triples().iter().enumerate() {
                 sum += xyz[1];
                 y += xyz[1] * (32.0 - (pixel / 64) as f64 - 0.5) * width / 64.0;
             }

@@ -45,7 +45,7 @@ fn scene(light: Value) -> Value {
 fn values(film: &Film) -> Vec<f64> {
     let side = film.width() as usize;
     let mut sums = vec![0.0; VALUES];
-    for (pixel, xyz) in film.to_xyz().iter().enumerate() {
+    for (pixel, xyz) in film.to_image().triples().iter().enumerate() {
         let block = pixel / side * BLOCKS / side * BLOCKS + pixel % side * BLOCKS / side;
         for c in 0..3 {
             sums[3 * block + c] += xyz[c] / (side * side / (BLOCKS * BLOCKS)) as f64;

@@ -98,9 +98,9 @@ fn equal_indices_reflect_nothing() {
         };
         let whole = film(vec![slab("glass", 0.0, 0.12)]);
         let overlapping = film(vec![slab("glass", 0.0, 0.07), slab("other", 0.05, 0.12)]);
-        assert_eq!(whole.to_xyz(), overlapping.to_xyz(), "overlapping at {degrees}°");
+        assert_eq!(whole.to_image(), overlapping.to_image(), "overlapping at {degrees}°");
         let inside = film(vec![slab("glass", 0.0, 0.12), slab("other", 0.05, 0.07)]);
-        assert_eq!(whole.to_xyz(), inside.to_xyz(), "inside at {degrees}°");
+        assert_eq!(whole.to_image(), inside.to_image(), "inside at {degrees}°");
     }
 }
 
@@ -111,7 +111,7 @@ fn equal_indices_in_contact() {
     let film = |objects| render_json(&column(materials.clone(), objects, 40.0)).0;
     let whole = film(vec![slab("glass", 0.0, 0.12)]);
     let touching = film(vec![slab("glass", 0.0, 0.0625), slab("other", 0.0625, 0.12)]);
-    assert_eq!(whole.to_xyz(), touching.to_xyz());
+    assert_eq!(whole.to_image(), touching.to_image());
 }
 
 /// A bubble of air in glass is two more boundaries.
@@ -228,7 +228,8 @@ fn lamp_in_a_glass_ball() {
     equilibrium["objects"][0]["emission"] = json!(n * n);
     equilibrium["environment"] = json!({ "radiance": 1 });
     let (film, _) = render_json(&with(&equilibrium, "/render/max_depth", 64));
-    let pixels = film.to_xyz();
+    let picture = film.to_image();
+    let pixels = picture.triples();
     let spread = pixels.iter().map(|p| (p[1] - 1.0).abs()).fold(0.0, f64::max);
     assert!((mean_y(&film) - 1.0).abs() < 1e-3 && spread < 0.05, "{} {spread}", mean_y(&film));
 }

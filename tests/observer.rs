@@ -30,7 +30,8 @@ fn scene((lambda_nm, values): (&[f64], &[f64])) -> Value {
 }
 
 fn mean(film: &Film) -> [f64; 3] {
-    let pixels = film.to_xyz();
+    let picture = film.to_image();
+    let pixels = picture.triples();
     std::array::from_fn(|c| pixels.iter().map(|xyz| xyz[c]).sum::<f64>() / pixels.len() as f64)
 }
 

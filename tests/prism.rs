@@ -161,7 +161,7 @@ fn lines_on_a_screen() {
             let expected = [0.5 * width as f64 + to.dot(right) * pixels, 0.5 * width as f64 - to.y * pixels];
             // The centre of the spot, without the glow of light that the screen sends back to the prism.
             let (mut sum, mut x, mut y, mut all) = (0.0, 0.0, 0.0, 0.0);
-            for (pixel, xyz) in film.to_xyz().iter().enumerate() {
+            for (pixel, xyz) in film.to_image().triples().iter().enumerate() {
                 let at = [pixel % width, pixel / width].map(|p| p as f64 + 0.5);
                 all += xyz[1];
                 if (at[0] - expected[0]).abs() < 8.0 && (at[1] - expected[1]).abs() < 8.0 {

@@ -206,7 +206,8 @@ fn scene(section: &Section, lamp: &Lamp) -> Value {
 
 /// The same sums of a rendered film.
 fn columns(scene: &Value) -> Vec<[f64; 3]> {
-    let image = render_json(scene).0.to_xyz();
+    let picture = render_json(scene).0.to_image();
+    let image = picture.triples();
     let sum = |column: usize| {
         let pixels = (0..SIZE[1]).map(|row| image[row * SIZE[0] + column]);
         pixels.fold([0.0; 3], |sum, xyz| std::array::from_fn(|c| sum[c] + xyz[c]))

@@ -146,7 +146,7 @@ impl Profile {
         let (film, _) = render_json(&picture(k, power, samples));
         let pixel = (far - near) / SIZE[0] as f64;
         let mut sums = vec![([0.0; 3], 0.0); SIZE[0]];
-        for (index, xyz) in film.to_xyz().iter().enumerate() {
+        for (index, xyz) in film.to_image().triples().iter().enumerate() {
             // The camera looks along −z with +y up, so that +x is to the right.
             let [column, row] = [index % SIZE[0], index / SIZE[0]].map(|i| i as f64 + 0.5);
             let x = side * near.midpoint(far) + (column - 0.5 * SIZE[0] as f64) * pixel;

@@ -251,7 +251,7 @@ fn frosted(alpha: f64) -> Value {
 fn block_means(film: &Film) -> Vec<f64> {
     let blocks = SIDE / BLOCK;
     let mut sums = vec![0.0; 3 * (blocks * blocks + 1)];
-    for (pixel, xyz) in film.to_xyz().iter().enumerate() {
+    for (pixel, xyz) in film.to_image().triples().iter().enumerate() {
         let block = pixel / SIDE / BLOCK * blocks + pixel % SIDE / BLOCK;
         for c in 0..3 {
             sums[3 * block + c] += xyz[c] / (BLOCK * BLOCK) as f64;

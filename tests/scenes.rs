@@ -34,7 +34,8 @@ fn every_scene_renders() {
         assert_eq!(film.non_finite_samples, 0, "{name}");
         let (underflows, rays) = (statistics.counters.medium_underflows, statistics.counters.rays);
         assert!(underflows as f64 <= 1e-6 * rays as f64, "{name}: {underflows} underflows in {rays} rays");
-        let xyz = film.to_xyz();
+        let picture = film.to_image();
+        let xyz = picture.triples();
         assert!(xyz.iter().flatten().all(|v| v.is_finite()), "{name}");
         let lit = xyz.iter().filter(|xyz| xyz[1] > 0.0).count();
         assert!(2 * lit > xyz.len(), "{name}: only {lit} of {} pixels are lit", xyz.len());

@@ -93,7 +93,7 @@ fn a_deadline_in_the_past_leaves_one_round() {
 
 /// Means of the pixels, of X + Y + Z, and at the end that of the picture.
 fn values(film: &Film) -> Vec<f64> {
-    let mut values: Vec<f64> = film.to_xyz().iter().map(|xyz| xyz.iter().sum()).collect();
+    let mut values: Vec<f64> = film.to_image().triples().iter().map(|xyz| xyz.iter().sum()).collect();
     values.push(values.iter().sum::<f64>() / values.len() as f64);
     values
 }
@@ -153,7 +153,8 @@ fn a_target_error_is_reached() {
     let mut compiled = compile_json(&scene);
     compiled.render.samples_per_pixel = 16384;
     compiled.render.seed = 999;
-    let reference = to_the_end(&compiled).film.to_xyz();
+    let picture = to_the_end(&compiled).film.to_image();
+    let reference = picture.triples();
     let mean = reference.iter().flatten().sum::<f64>() / (3 * reference.len()) as f64;
     compiled.render.target_error = Some(TARGET);
     compiled.render.adaptive = true;
@@ -165,7 +166,8 @@ fn a_target_error_is_reached() {
         let bound = rendering.statistics.error_bound.unwrap();
         assert!(rendering.statistics.complete && bound < TARGET);
         assert!(rendering.statistics.samples < 1 << 14, "{} samples", rendering.statistics.samples);
-        let film = rendering.film.to_xyz();
+        let picture = rendering.film.to_image();
+        let film = picture.triples();
         let squares = film.iter().flatten().zip(reference.iter().flatten());
         let error = squares.map(|(i, r)| (i - r) * (i - r) / (r * r + 0.01 * mean * mean)).sum::<f64>()
             / (3 * reference.len()) as f64;

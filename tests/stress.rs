@@ -259,7 +259,8 @@ fn touching_and_overlapping() {
             let (film, statistics) = render_counting_underflows(&scene);
             let (underflows, rays) = (statistics.counters.medium_underflows, statistics.counters.rays);
             assert!(underflows <= rays / 1_000_000 + 1, "{name}, {priorities:?}: {underflows} in {rays} rays");
-            let image = film.to_xyz();
+            let picture = film.to_image();
+            let image = picture.triples();
             assert!(image.iter().flatten().all(|v| v.is_finite() && *v >= 0.0), "{name}");
             println!("{name}, priorities {priorities:?}: {:.5}", mean_y(&film));
             assert!((mean_y(&film) - 1.0).abs() < 5e-3, "{name}, {priorities:?}: {}", mean_y(&film));

@@ -1,11 +1,20 @@
 //! False colours for maps of errors.
 
+use crate::Image;
+use crate::develop::Picture;
+
 /// Encoded sRGB at equal steps from 0 to 1; the lightness rises throughout, so that a grey print says the same.
 const STOPS: [[f64; 3]; 6] =
     [[0.0, 0.0, 0.0], [0.16, 0.09, 0.42], [0.55, 0.13, 0.50], [0.88, 0.31, 0.31], [0.98, 0.65, 0.20], [1.0, 1.0, 0.88]];
 
+/// Shows one channel of a picture in false colours from 0 to the value that is `white`.
+pub fn picture(image: &Image, channel: usize, white: f64) -> Picture {
+    let rgb8 = image.plane(channel).map(|value| color(value / white)).collect();
+    Picture { width: image.size()[0], rgb8, exposure_ev: 0.0, out_of_gamut: 0.0 }
+}
+
 /// The colour of a value in [0, 1]; what is beyond gets the end's.
-pub fn color(value: f64) -> [u8; 3] {
+fn color(value: f64) -> [u8; 3] {
     let at = value.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
     let below = (at as usize).min(STOPS.len() - 2);
     let t = at - below as f64;

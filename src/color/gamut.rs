@@ -67,6 +67,23 @@ pub fn excess(rgb: LinearRgb) -> f64 {
     (-rgb.0).max(rgb.0 - 1.0).max_element().max(0.0)
 }
 
+/// Takes away the negative components of a colour of any brightness by mixing it with the grey of its luminance, as far as it
+/// takes. Where the luminance is not positive either, negative components become 0.
+///
+/// For light before tone mapping, when 1 bounds nothing yet; [`GamutMapper`] is for colours as they are shown.
+pub fn without_negatives(space: &RgbSpace, rgb: LinearRgb) -> LinearRgb {
+    let lowest = rgb.0.min_element();
+    if lowest >= 0.0 {
+        return rgb;
+    }
+    let luminance = space.xyz_from_rgb.row(1).dot(rgb.0);
+    if luminance <= 0.0 {
+        return LinearRgb(rgb.0.max(DVec3::ZERO));
+    }
+    let inside = DVec3::splat(luminance) + (rgb.0 - luminance) * (luminance / (luminance - lowest));
+    LinearRgb(inside.max(DVec3::ZERO))
+}
+
 /// A gamut mapping into one space.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GamutMapper {
@@ -346,6 +363,18 @@ mod tests {
         for bad in [f64::NAN, f64::INFINITY] {
             assert!(!mapper.map(LinearRgb::new(bad, 0.5, 0.5)).0.is_finite());
         }
+    }
+
+    #[test]
+    fn negative_components_vanish_at_the_same_luminance() {
+        let srgb = RgbSpace::srgb();
+        let luminance = |rgb: LinearRgb| srgb.xyz_from_linear(rgb).y;
+        let green = LinearRgb::new(-2.0, 5.0, 1.0);
+        let found = without_negatives(srgb, green);
+        assert!(found.0.x == 0.0 && found.0.y > found.0.z && (luminance(found) - luminance(green)).abs() < 1e-12);
+        let bright = LinearRgb::new(0.0, 7.0, 0.5);
+        assert_eq!(without_negatives(srgb, bright), bright);
+        assert_eq!(without_negatives(srgb, LinearRgb::new(-3.0, -1.0, 2.0)), LinearRgb::new(0.0, 0.0, 2.0));
     }
 
     /// Display P3 in sRGB: continuous; steepest near blue.

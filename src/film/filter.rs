@@ -17,28 +17,28 @@ pub struct Filter {
     profile: Option<Profile>,
 }
 
-/// A profile, linear between evenly spaced knots: to draw from, and its values.
+/// A filter's values along one axis, linear between evenly spaced knots, and the distribution that offsets are drawn from.
 #[derive(Debug, Clone)]
 struct Profile {
     density: PiecewiseLinearDensity,
     values: Vec<f32>,
 }
 
-/// Knots of a tabulated profile.
+/// Number of knots of a tabulated profile.
 const KNOTS: u32 = 128;
 
 impl Filter {
-    /// Constant within `radius` pixels along each axis.
+    /// Makes a filter that is constant within `radius` pixels along each axis.
     pub fn boxed(radius: f64) -> Self {
         Self { radius: radius as f32, profile: None }
     }
 
-    /// A Gaussian with standard deviation `radius` / 3, cut (and lowered to 0) at `radius`.
+    /// Makes a Gaussian with standard deviation `radius` / 3, lowered so that it is 0 at `radius`, and cut there.
     pub fn gaussian(radius: f64) -> Self {
         Self::tabulated(radius, |x| math::exp(-4.5 * x * x) - math::exp(-4.5))
     }
 
-    /// The four-term Blackman–Harris window \[Harris1978\] stretched to `radius`.
+    /// Makes the four-term Blackman–Harris window \[Harris1978\], stretched to `radius`.
     pub fn blackman_harris(radius: f64) -> Self {
         Self::tabulated(radius, |x| {
             let cos = |k: f64| math::cos(k * PI * (x + 1.0));
@@ -46,7 +46,7 @@ impl Filter {
         })
     }
 
-    /// From a profile over [−1, 1].
+    /// Tabulates a profile that is given over [−1, 1].
     fn tabulated(radius: f64, profile: impl Fn(f64) -> f64) -> Self {
         let unit = |i: u32| 2.0 * f64::from(i) / f64::from(KNOTS) - 1.0;
         let x: Vec<f64> = (0..=KNOTS).map(|i| radius * unit(i)).collect();
@@ -58,18 +58,18 @@ impl Filter {
         Self { radius: radius as f32, profile: Some(Profile { density, values }) }
     }
 
-    /// Radius in pixels.
+    /// Returns the radius in pixels.
     pub fn radius(&self) -> f32 {
         self.radius
     }
 
-    /// Pixels beyond a pixel's own square that its filter reaches.
+    /// Returns how many pixels the filter reaches beyond a pixel's own square.
     pub fn reach(&self) -> u32 {
         (self.radius - 0.5).ceil().max(0.0) as u32
     }
 
-    /// Sum of the squares of the correlations of a pixel's noise with that of all pixels, where samples are spread evenly and
-    /// count in all pixels that they reach: 1 if only in their own.
+    /// Returns the sum of the squares of the correlations of a pixel's noise with that of all pixels, where samples are spread
+    /// evenly and count in all pixels that they reach. It is 1 for a filter that reaches its own pixel only.
     pub(crate) fn correlation(&self) -> f64 {
         let steps = 64 * KNOTS;
         let offset = |i: u32| self.radius * (2.0 * (f64::from(i) + 0.5) / f64::from(steps) - 1.0) as f32;
@@ -81,7 +81,7 @@ impl Filter {
         along_an_axis * along_an_axis
     }
 
-    /// An offset from the pixel's centre, in pixels, drawn from the filter.
+    /// Draws an offset from the pixel's centre, in pixels, with the filter as its density.
     pub fn sample(&self, u: [f32; 2]) -> [f32; 2] {
         u.map(|u| match &self.profile {
             None => (2.0 * u - 1.0) * self.radius,
@@ -98,7 +98,7 @@ impl Filter {
             (first as u32, if last < first { None } else { Some(last as u32) })
         };
         if self.profile.is_none() && self.radius == 0.5 {
-            // Exactly one pixel, also on the line between two.
+            // A box belongs to exactly one pixel, also on the line between two.
             let [x, y] = position.map(f32::floor);
             if x >= 0.0 && y >= 0.0 && x < width as f32 && y < height as f32 {
                 deposit(x as u32, y as u32, 1.0);
@@ -114,7 +114,7 @@ impl Filter {
         }
     }
 
-    /// The filter along one axis, at offsets up to its radius.
+    /// Evaluates the filter along one axis, at an offset up to its radius.
     #[inline]
     pub(super) fn weight(&self, offset: f32) -> f32 {
         match &self.profile {

@@ -1,5 +1,5 @@
-//! The film: sums in f64 of what a sensor makes of radiance, with replicates from which its own error follows. Knows colour
-//! and spectra, no scene.
+//! The film: sums in f64 of what a sensor makes of radiance, with replicates from which its own error follows. It knows
+//! colour and spectra, but no scene.
 //!
 //! A sensor has any number of channels. The first three are an observer's X, Y and Z: the picture is made of them, and all
 //! errors are judged by them. Sums are flat, pixel by pixel.
@@ -19,6 +19,7 @@ pub use sensor::{PICTURE_CHANNELS, Sensor, value};
 pub use splats::Splats;
 pub use tile::{CameraTile, SamplePlace};
 
+use crate::Image;
 use replicates::Replicates;
 
 /// Independently scrambled replicates of the camera part.
@@ -29,7 +30,7 @@ pub const LIGHT_REPLICATES: usize = 8;
 /// CIE XYZ; 1 everywhere is a spectral radiance of 1 W·m⁻²·sr⁻¹·nm⁻¹.
 pub type Xyz = [f64; 3];
 
-/// A picture in the making.
+/// A picture while it is rendered: sums of samples, and the numbers of samples that they are of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
     width: u32,
@@ -39,21 +40,21 @@ pub struct Film {
     light: Replicates,
     light_paths: u64,
     merged: Replicates,
-    /// The same at an earlier time.
+    /// What merging had given when [`Film::mark_merged`] was last called.
     merged_before: Option<Replicates>,
-    /// Samples that were not finite. Dropped, and counted: a healthy renderer has none.
+    /// Number of samples that were not finite. They are left out of the sums; a healthy renderer has none.
     pub non_finite_samples: u64,
     /// Radiance of the scene that one unit of the sums stands for.
     scale: f64,
 }
 
 impl Film {
-    /// A black film for an observer's X, Y and Z; sums are in units of `scale` (a power of two).
+    /// Makes a black film for an observer's X, Y and Z. Its sums are in units of `scale`, a power of two.
     pub fn new(width: u32, height: u32, scale: f64) -> Self {
         Self::of_channels(width, height, PICTURE_CHANNELS, scale)
     }
 
-    /// A black film for so many channels, see [`Sensor::channels`].
+    /// Makes a black film with as many channels as its sensor has, see [`Sensor::channels`].
     pub fn of_channels(width: u32, height: u32, channels: usize, scale: f64) -> Self {
         Self {
             width,
@@ -69,24 +70,24 @@ impl Film {
         }
     }
 
-    /// For camera samples that count in all pixels that the filter reaches.
+    /// Tells the film that camera samples count in all pixels that this filter reaches, which correlates the pixels' errors.
     pub fn filtered(mut self, filter: &Filter) -> Self {
         self.camera.correlation = filter.correlation();
         self
     }
 
-    /// Memory of a film of so many channels with light paths and merging, and of the picture made from it, bytes a pixel.
+    /// Returns how many bytes each pixel takes, in a film with light paths and merging and in the picture made from it.
     pub const fn bytes_per_pixel(channels: usize) -> usize {
         let numbers = tile::stride(channels) + 2 * LIGHT_REPLICATES * channels + 2 * PICTURE_CHANNELS;
         size_of::<u64>() + numbers * size_of::<f64>()
     }
 
-    /// Pixels per row.
+    /// Returns the number of pixels in a row.
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Rows.
+    /// Returns the number of rows.
     pub fn height(&self) -> u32 {
         self.height
     }
@@ -95,23 +96,24 @@ impl Film {
         self.width as usize * self.height as usize
     }
 
-    /// Camera samples taken in all.
+    /// Returns how many camera samples were taken in all pixels together.
     pub fn camera_paths(&self) -> u64 {
         self.camera.paths()
     }
 
-    /// What camera samples have given.
+    /// Returns the part of the film that camera samples gave.
     pub fn camera(&self) -> &CameraPart {
         &self.camera
     }
 
-    /// Adds what camera samples gave in some tiles, in their order whatever the number of threads.
+    /// Adds what camera samples gave in some tiles. Tiles are added in the order given, so that the sums do not depend on the
+    /// number of threads.
     pub fn add_tiles(&mut self, tiles: &[&CameraTile]) {
         self.camera.add_tiles(self.width as usize, tiles);
         self.non_finite_samples += tiles.iter().map(|tile| tile.non_finite).sum::<u64>();
     }
 
-    /// What camera samples have given, to count them and to order them in stages.
+    /// Returns the part of the film that camera samples gave, to count samples and to end stages.
     pub fn camera_mut(&mut self) -> &mut CameraPart {
         &mut self.camera
     }
@@ -132,13 +134,13 @@ impl Film {
         self.non_finite_samples += self.merged.add(self.pixels(), replicate, 1.0, 1.0, splats);
     }
 
-    /// Light paths traced in all, those of merging aside.
+    /// Returns how many light paths were traced, without those of merging.
     pub fn light_paths(&self) -> u64 {
         self.light_paths
     }
 
-    /// Value of a pixel in one channel: the mean of its camera samples plus the means over light paths and over passes of
-    /// merging.
+    /// Returns the value of a pixel in one channel: the mean of its camera samples plus the means over light paths and over
+    /// passes of merging.
     pub fn value(&self, pixel: usize, channel: usize) -> f64 {
         let [value] = self.values(pixel, channel);
         value
@@ -153,18 +155,23 @@ impl Film {
         })
     }
 
-    /// How many channels there are.
+    /// Returns the number of channels.
     pub fn channels(&self) -> usize {
         self.channels
     }
 
-    /// XYZ of a pixel.
+    /// Returns X, Y and Z of a pixel.
     pub fn xyz(&self, pixel: usize) -> Xyz {
         self.values(pixel, 0)
     }
 
-    /// All pixels, row by row.
-    pub fn to_xyz(&self) -> Vec<Xyz> {
+    /// Makes a picture of X, Y and Z. Further channels of the sensor are not in it.
+    pub fn to_image(&self) -> Image {
+        Image::new([self.width, self.height], &["X", "Y", "Z"], self.to_xyz().into_flattened())
+    }
+
+    /// Returns XYZ of all pixels, row by row.
+    fn to_xyz(&self) -> Vec<Xyz> {
         (0..self.pixels()).map(|i| self.xyz(i)).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! From radiance at a path's wavelengths to the channels of the film. The only place that divides by a wavelength's density.
+//! Turns radiance at a path's wavelengths into the channels of the film. No other place divides by a wavelength's density.
 
 use super::Xyz;
 use crate::color::Observer;
@@ -23,14 +23,14 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// The colour matching functions of a standard observer.
+    /// Makes a sensor with the colour matching functions of a standard observer.
     pub fn of_observer(observer: &Observer) -> Self {
         let matching: Vec<Xyz> =
             (LAMBDA_MIN_NM as u32..=LAMBDA_MAX_NM as u32).map(|l| observer.eval(f64::from(l)).to_array()).collect();
         Self { name: observer.name(), ..Self::new(LAMBDA_MIN_NM, &matching) }
     }
 
-    /// From colour matching functions at 1 nm steps, linear in between.
+    /// Makes a sensor from colour matching functions at 1 nm steps, which are linear in between.
     pub fn new(first_nm: f64, matching: &[Xyz]) -> Self {
         let y: f64 = matching.windows(2).map(|w| 0.5 * (w[0][1] + w[1][1])).sum();
         let normalised = |m: &Xyz| [(m[0] / y) as f32, (m[1] / y) as f32, (m[2] / y) as f32, 0.0];
@@ -64,7 +64,7 @@ impl Sensor {
         self.channels
     }
 
-    /// The observer's name; empty if it is no standard one.
+    /// Returns the observer's name, which is empty unless the observer is a standard one.
     pub fn name(&self) -> &'static str {
         self.name
     }
@@ -108,7 +108,7 @@ impl Sensor {
     }
 }
 
-/// A channel's value for some radiance, by the weights of that channel.
+/// Returns what some radiance adds to a channel, by the weights of that channel.
 #[inline]
 pub fn value(weights: SampledSpectrum, radiance: SampledSpectrum) -> f64 {
     f64::from((weights * radiance).sum())

@@ -10,7 +10,7 @@ use std::path::Path;
 /// Longest mesh file that is read, in bytes.
 pub const MAX_MESH_BYTES: u64 = 2 << 30;
 
-/// The formats that [`read`] knows, by extension.
+/// Extensions of the files that [`read`] can read.
 pub const MESH_EXTENSIONS: [&str; 2] = ["obj", "ply"];
 
 /// Reads a mesh from an OBJ or PLY file. Polygons are cut into fans; vertices that are equal in every respect are merged,
@@ -72,7 +72,7 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// What holds for meshes of any format; readers with lines to name have checked it already.
+/// Checks what must hold for meshes of any format. Readers of text have checked it already, to name the line.
 fn check(mesh: &Mesh) -> Result<()> {
     if mesh.indices.is_empty() {
         return Err(Error::new(ErrorKind::Degenerate, "no triangles: expected a mesh with at least one face"));

@@ -1,4 +1,4 @@
-//! Files in and out: what other programs wrote, read with limits and places in the messages.
+//! Reads and writes files. What other programs wrote is read within limits, and messages name the place of what is wrong.
 
 pub mod catalogue;
 pub mod exr;

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 /// A face's corner: index of its position, texture coordinate and normal.
 type Corner = (u32, Option<u32>, Option<u32>);
 
-/// The statements of a file.
+/// What the statements of a file have said so far.
 #[derive(Default)]
 struct Statements {
     positions: Vec<DVec3>,
@@ -87,7 +87,7 @@ impl Statements {
         Ok(())
     }
 
-    /// `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+    /// Parses a corner: `v`, `v/vt`, `v//vn` or `v/vt/vn`.
     fn corner(&self, word: &[u8]) -> Result<Corner> {
         let mut parts = word.split(|&byte| byte == b'/');
         let position = index(parts.next().unwrap_or_default(), self.positions.len(), "v")?;
@@ -126,7 +126,7 @@ impl Statements {
     }
 }
 
-/// Up to three finite numbers, at least `required` of them; the others are 0.
+/// Parses up to three finite numbers, at least `required` of them. Those that are not there are 0.
 fn numbers<'a>(mut words: impl Iterator<Item = &'a [u8]>, required: usize) -> Result<[f64; 3]> {
     let mut values = [0.0; 3];
     for (position, value) in values.iter_mut().enumerate() {
@@ -147,7 +147,7 @@ fn numbers<'a>(mut words: impl Iterator<Item = &'a [u8]>, required: usize) -> Re
     Ok(values)
 }
 
-/// An index from 1, or from −1 backwards, among the `count` statements so far.
+/// Parses an index, which counts from 1, or backwards from −1, among the `count` statements so far.
 fn index(word: &[u8], count: usize, name: &str) -> Result<u32> {
     let number = std::str::from_utf8(word).ok().and_then(|text| text.parse::<i64>().ok());
     let number = number.ok_or_else(|| unreadable(word, "an index"))?;
@@ -167,7 +167,7 @@ fn unreadable(word: &[u8], expected: &str) -> Error {
     Error::new(ErrorKind::FileFormat, format!("\"{}\": expected {expected}", excerpt(word)))
 }
 
-/// The beginning of a word, printable.
+/// Returns the beginning of a word in printable characters, for messages.
 fn excerpt(word: &[u8]) -> String {
     word.iter().take(40).copied().flat_map(std::ascii::escape_default).map(char::from).collect()
 }

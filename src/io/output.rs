@@ -1,4 +1,4 @@
-//! Writing files so that a crash or a full disk never destroys what was there.
+//! Writes files so that a crash or a full disk never destroys what was there.
 
 use crate::{Error, ErrorKind, Result};
 use std::ffi::OsString;
@@ -18,7 +18,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
         fs::rename(&temporary, path)
     };
     write().map_err(|e| {
-        // Nothing to be done if even this fails; the first error is the one to tell.
+        // Nothing can be done if even this fails; the first error is the one to tell.
         let _ = fs::remove_file(&temporary);
         Error::new(ErrorKind::Io, format!("cannot write: {e}")).in_file(path)
     })

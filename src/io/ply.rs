@@ -9,7 +9,7 @@ use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
 };
 
-/// Names that texture coordinates go by.
+/// Names of the properties that are texture coordinates.
 const UV_NAMES: [[&str; 2]; 4] = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
 const INDEX_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
@@ -29,7 +29,7 @@ struct Face {
 struct Other;
 
 impl Vertex {
-    /// Where a property goes in `values`.
+    /// Finds the place of a property in `values`.
     fn slot(name: &str) -> Option<usize> {
         let named = ["x", "y", "z", "nx", "ny", "nz"].iter().position(|&known| known == name);
         let uv = |side: usize| UV_NAMES.iter().any(|pair| pair[side] == name).then_some(6 + side);
@@ -69,7 +69,7 @@ impl PropertyAccess for Other {
     }
 }
 
-/// A scalar's value.
+/// Returns the value of a scalar of any type.
 fn number(property: &Property) -> Option<f64> {
     Some(match *property {
         Property::Char(value) => f64::from(value),
@@ -84,7 +84,7 @@ fn number(property: &Property) -> Option<f64> {
     })
 }
 
-/// A list's integers.
+/// Returns the integers of a list of any type.
 fn indices(property: Property) -> Vec<u32> {
     fn convert<T: TryInto<u32>>(list: Vec<T>) -> Vec<u32> {
         list.into_iter().map(|index| index.try_into().unwrap_or(u32::MAX)).collect()
@@ -131,7 +131,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Mesh> {
     Ok(mesh)
 }
 
-/// What the header says of the vertices.
+/// What the header announces of vertices: their number and which properties they have.
 struct Layout {
     vertex_count: usize,
     has_normals: bool,
@@ -228,7 +228,7 @@ fn check_size(header: &Header, length: usize) -> Result<()> {
     Ok(())
 }
 
-/// The fewest bytes that one element can take.
+/// Computes the fewest bytes that one element can take.
 fn least_size(element: &ElementDef, encoding: Encoding) -> usize {
     let size = |scalar: &ScalarType| match scalar {
         _ if encoding == Encoding::Ascii => 2,
@@ -243,7 +243,7 @@ fn least_size(element: &ElementDef, encoding: Encoding) -> usize {
     sizes.fold(0, usize::saturating_add)
 }
 
-/// The crate's error on one line of bounded length; line numbers mean nothing in binary data.
+/// Turns the crate's error into one line of bounded length, without a line number for binary data.
 fn translate(error: ParseError, text: bool) -> Error {
     let message: String = error.to_string().split_whitespace().collect::<Vec<_>>().join(" ");
     let message: String = message.chars().flat_map(char::escape_default).take(300).collect();

@@ -1,11 +1,11 @@
-//! PNG output.
+//! Writes PNG files.
 
 use crate::develop::Picture;
 use crate::{Error, ErrorKind, Result};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
-/// Encodes a picture.
+/// Encodes a picture as a PNG.
 pub fn encode(picture: &Picture) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let height = picture.rgb8.len() as u32 / picture.width;

@@ -4,7 +4,7 @@ use super::{Pair, stats};
 
 /// Edge of the blocks of pixels whose errors are taken as independent.
 const BLOCK: usize = 8;
-/// Fewer blocks than this, and they are made smaller.
+/// Least number of blocks; where there are fewer, they are made smaller.
 const ENOUGH: usize = 30;
 
 /// The mean error of one channel.
@@ -14,23 +14,22 @@ pub struct Bias {
     pub mean: f64,
     /// Half the width of its 95 % confidence interval; NaN for fewer than two blocks.
     pub half_width: f64,
-    /// Mean of R, to be relative to.
+    /// Mean of R, by which `mean` can be divided.
     pub reference: f64,
 }
 
 impl Bias {
-    /// Whether 0 lies outside the interval.
+    /// Returns whether 0 lies outside the interval.
     pub fn is_significant(&self) -> bool {
         self.mean.abs() > self.half_width
     }
 }
 
-/// Mean error of each channel with the 95 % interval of Student's t over blocks of 8 × 8 pixels (smaller ones in small
-/// pictures). Neighbouring pixels share samples through the reconstruction filter, so that single pixels would make
+/// Computes the mean error of each channel with the 95 % interval of Student's t over blocks of 8 × 8 pixels (smaller ones
+/// in small pictures). Neighbouring pixels share samples through the reconstruction filter, so that single pixels would make
 /// the interval too narrow; blocks are nearly independent.
 pub fn bias(pair: &Pair) -> [Bias; 3] {
-    let width = pair.width();
-    let height = pair.all().len() / width;
+    let [width, height] = pair.size().map(|n| n as usize);
     let mut edge = BLOCK;
     while edge > 1 && width.div_ceil(edge) * height.div_ceil(edge) < ENOUGH {
         edge /= 2;
@@ -54,7 +53,7 @@ pub fn bias(pair: &Pair) -> [Bias; 3] {
     })
 }
 
-/// Σ sums / Σ counts with the half width of its 95 % interval: blocks of several sizes weigh by their counts.
+/// Computes Σ sums / Σ counts and the half width of its 95 % interval. Blocks weigh by their numbers of pixels.
 fn ratio_interval(blocks: &[(f64, f64)]) -> (f64, f64) {
     let n = blocks.len() as f64;
     let count: f64 = blocks.iter().map(|b| b.0).sum();
@@ -70,6 +69,7 @@ fn ratio_interval(blocks: &[(f64, f64)]) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Image;
 
     fn noise(i: u64) -> f64 {
         let mut x = i.wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -78,7 +78,7 @@ mod tests {
     }
 
     /// Uniform noise in [−1/2, 1/2] around an offset, correlated by averaging 2 × 2 neighbours.
-    fn picture(seed: u64, offset: f64) -> Vec<[f64; 3]> {
+    fn picture(seed: u64, offset: f64) -> Image {
         let at = |x: u64, y: u64, c: u64| noise(((seed * 65 + y) * 65 + x) * 3 + c);
         let mut pixels = Vec::new();
         for y in 0..64 {
@@ -87,16 +87,20 @@ mod tests {
                 pixels.push([0, 1, 2].map(|c| 1.0 + offset + value(c)));
             }
         }
-        pixels
+        Image::xyz(64, pixels).unwrap()
+    }
+
+    fn grey(side: u32, value: f64) -> Image {
+        Image::xyz(side, vec![[value; 3]; (side * side) as usize]).unwrap()
     }
 
     #[test]
     fn intervals_hold_the_truth_as_often_as_they_say() {
-        let reference = vec![[1.0; 3]; 64 * 64];
+        let reference = grey(64, 1.0);
         let (mut missed, mut widths) = (0, 0.0);
         for seed in 0..200 {
             let test = picture(seed, 0.0);
-            for b in bias(&Pair::new(64, &test, &reference, None).unwrap()) {
+            for b in bias(&Pair::new(&test, &reference, None).unwrap()) {
                 missed += u32::from(b.is_significant());
                 widths += b.half_width / 600.0;
             }
@@ -110,12 +114,12 @@ mod tests {
 
     #[test]
     fn a_bias_is_seen() {
-        let reference = vec![[1.0; 3]; 64 * 64];
+        let reference = grey(64, 1.0);
         let test = picture(3, 0.02);
-        for b in bias(&Pair::new(64, &test, &reference, None).unwrap()) {
+        for b in bias(&Pair::new(&test, &reference, None).unwrap()) {
             assert!(b.is_significant() && (b.mean - 0.02).abs() < 2.0 * b.half_width && b.reference == 1.0);
         }
-        let single = bias(&Pair::new(1, &[[2.0; 3]], &[[1.0; 3]], None).unwrap());
+        let single = bias(&Pair::new(&grey(1, 2.0), &grey(1, 1.0), None).unwrap());
         assert!(single[0].mean == 1.0 && single[0].half_width.is_nan() && !single[0].is_significant());
     }
 }

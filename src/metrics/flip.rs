@@ -4,6 +4,7 @@
 //! HyAB distance; where edges or points differ as well, the difference counts for more.
 
 use super::{Displayed, Pair, stats};
+use crate::Image;
 use crate::color::RgbSpace;
 use crate::color::space::lab_from_xyz;
 use crate::math;
@@ -21,45 +22,46 @@ const SENSITIVITY: [&[(f64, f64)]; 3] = [&[(1.0, 0.0047)], &[(1.0, 0.0053)], &[(
 const WIDEST: f64 = 0.04;
 /// Exponent of colour differences, q_c.
 const COLOR_EXPONENT: f64 = 0.7;
-/// Differences below this share of the largest, p_c, …
+/// Share of the largest colour difference, p_c, below which differences are small; they fill [`KNEE_ERROR`] of the range.
 const KNEE: f64 = 0.4;
-/// … fill this share of the range, p_t.
+/// Share of the range, p_t, that small differences fill.
 const KNEE_ERROR: f64 = 0.95;
 /// Width of an edge that is seen as one, w, degrees.
 const FEATURE_WIDTH: f64 = 0.082;
 /// Exponent of feature differences, q_f.
 const FEATURE_EXPONENT: f64 = 0.5;
 
-/// The mean of a [`flip_map`] over the pixels of `pair` that count, in [0, 1].
-pub fn flip(pair: &Pair, map: &[f64]) -> f64 {
-    stats::mean(&pair.counted_values(map).collect::<Vec<_>>())
+/// Computes the mean of a [`flip_map`] over the pixels of `pair` that count, in [0, 1].
+pub fn flip(pair: &Pair, map: &Image) -> f64 {
+    stats::mean(&pair.counted_values(map.plane(0)).collect::<Vec<_>>())
 }
 
-/// FLIP of every pixel, in [0, 1]: the variant for pictures of low dynamic range, over sRGB clipped to [0, 1]. `width` is
-/// that of both pictures.
-pub fn flip_map(width: usize, test: &Displayed, reference: &Displayed, pixels_per_degree: f64) -> Vec<f64> {
-    let [test, reference] = [test, reference].map(|picture| Seen::new(width, picture, pixels_per_degree));
+/// Computes FLIP of every pixel, in [0, 1], as a picture of one channel. This is the variant for pictures of low dynamic range,
+/// over sRGB clipped to [0, 1]. Both pictures have the same size.
+pub fn flip_map(test: &Displayed, reference: &Displayed, pixels_per_degree: f64) -> Image {
+    let size = test.size();
+    let [test, reference] = [test, reference].map(|picture| Seen::new(picture, pixels_per_degree));
     let largest = largest_difference();
-    (0..test.lab.len())
-        .map(|i| {
-            let color = redistributed(math::pow(hyab(test.lab[i], reference.lab[i]), COLOR_EXPONENT), largest);
-            let [edges, points] = [0, 1].map(|k| (test.features[k][i] - reference.features[k][i]).abs());
-            let feature = math::pow(edges.max(points) / 2f64.sqrt(), FEATURE_EXPONENT);
-            if color == 0.0 { 0.0 } else { math::pow(color, 1.0 - feature) }
-        })
-        .collect()
+    let error = |i: usize| {
+        let color = redistributed(math::pow(hyab(test.lab[i], reference.lab[i]), COLOR_EXPONENT), largest);
+        let [edges, points] = [0, 1].map(|k| (test.features[k][i] - reference.features[k][i]).abs());
+        let feature = math::pow(edges.max(points) / 2f64.sqrt(), FEATURE_EXPONENT);
+        if color == 0.0 { 0.0 } else { math::pow(color, 1.0 - feature) }
+    };
+    Image::new(size, &["FLIP"], (0..test.lab.len()).map(error).collect())
 }
 
-/// A picture as the eye has it.
+/// What the eye receives of a picture.
 struct Seen {
-    /// Blurred, in Hunt-adjusted Lab.
+    /// Colours of the blurred picture, in Hunt-adjusted Lab.
     lab: Vec<DVec3>,
-    /// Strength of edges and of points.
+    /// Strengths of edges and of points in every pixel.
     features: [Vec<f64>; 2],
 }
 
 impl Seen {
-    fn new(width: usize, picture: &Displayed, pixels_per_degree: f64) -> Self {
+    fn new(picture: &Displayed, pixels_per_degree: f64) -> Self {
+        let width = picture.size()[0] as usize;
         let (space, white) = (RgbSpace::srgb(), RgbSpace::srgb().white_xyz());
         let opponent: Vec<DVec3> =
             picture.linear_srgb().map(|rgb| opponent_from_relative(space.xyz_from_rgb * rgb / white)).collect();
@@ -77,7 +79,7 @@ impl Seen {
     }
 }
 
-/// Achromatic, red–green and blue–yellow of XYZ relative to white: CIE Lab without its cube roots.
+/// Turns XYZ relative to white into achromatic, red–green and blue–yellow values: CIE Lab without its cube roots.
 fn opponent_from_relative(xyz: DVec3) -> DVec3 {
     DVec3::new(116.0 * xyz.y - 16.0, 500.0 * (xyz.x - xyz.y), 200.0 * (xyz.y - xyz.z))
 }
@@ -87,18 +89,18 @@ fn relative_from_opponent(v: DVec3) -> DVec3 {
     DVec3::new(y + v.y / 500.0, y, y - v.z / 200.0)
 }
 
-/// Dark colours look less colourful.
+/// Makes dark colours less colourful, as they look.
 fn hunt_adjusted(lab: DVec3) -> DVec3 {
     DVec3::new(lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z)
 }
 
-/// Difference of large colour differences: lightness by its amount, chroma by its distance.
+/// Computes the HyAB distance: the difference in lightness plus the distance in the plane of a and b.
 fn hyab(a: DVec3, b: DVec3) -> f64 {
     let d = a - b;
     d.x.abs() + (d.y * d.y + d.z * d.z).sqrt()
 }
 
-/// The largest difference in sRGB, of green and blue, to the power q_c.
+/// Computes the largest difference of two colours of sRGB, green and blue, to the power q_c.
 fn largest_difference() -> f64 {
     let space = RgbSpace::srgb();
     let [green, blue] =
@@ -116,14 +118,14 @@ fn redistributed(difference: f64, largest: f64) -> f64 {
     }
 }
 
-/// One channel.
+/// One channel of a picture.
 struct Plane {
     width: usize,
     values: Vec<f64>,
 }
 
 impl Plane {
-    /// Blurred by a contrast sensitivity: each of its Gaussians is a product of one in x and one in y.
+    /// Blurs the plane by a contrast sensitivity. Each of its Gaussians is a product of one in x and one in y.
     fn seen(&self, sensitivity: &[(f64, f64)], pixels_per_degree: f64) -> Vec<f64> {
         let radius = (3.0 * (WIDEST / (2.0 * PI * PI)).sqrt() * pixels_per_degree).ceil() as i64;
         let mut sum = vec![0.0; self.values.len()];
@@ -142,7 +144,7 @@ impl Plane {
         sum
     }
 
-    /// Magnitudes of the first derivative (edges) and of the second (points) of the plane under a Gaussian.
+    /// Computes the magnitudes of the first derivative (edges) and of the second (points) of the plane under a Gaussian.
     fn features(&self, pixels_per_degree: f64) -> [Vec<f64>; 2] {
         let sd = 0.5 * FEATURE_WIDTH * pixels_per_degree;
         let radius = (3.0 * sd).ceil() as i64;
@@ -159,7 +161,7 @@ impl Plane {
         })
     }
 
-    /// Filtered along x, then y; beyond the border the last pixel goes on.
+    /// Filters the plane along x, then along y. Beyond the border the last pixel is repeated.
     fn convolved(&self, kernel_x: &[f64], kernel_y: &[f64]) -> Vec<f64> {
         let (width, height) = (self.width, self.values.len() / self.width);
         let clamped =
@@ -184,7 +186,7 @@ impl Plane {
     }
 }
 
-/// Scaled so that the positive values add up to 1 and the negative ones, if any, to −1.
+/// Scales a kernel so that its positive values add up to 1 and its negative ones, if any, to −1.
 fn normalized(kernel: Vec<f64>) -> Vec<f64> {
     let positive: f64 = kernel.iter().filter(|v| **v > 0.0).sum();
     let negative: f64 = -kernel.iter().filter(|v| **v < 0.0).sum::<f64>();
@@ -195,14 +197,13 @@ fn normalized(kernel: Vec<f64>) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    fn shown(rgb: &[[f64; 3]]) -> Displayed {
-        let xyz: Vec<[f64; 3]> =
-            rgb.iter().map(|rgb| (RgbSpace::srgb().xyz_from_rgb * DVec3::from(*rgb)).to_array()).collect();
-        Displayed::new(&xyz, 1.0)
+    fn shown(width: u32, rgb: &[[f64; 3]]) -> Displayed {
+        let xyz = rgb.iter().map(|rgb| (RgbSpace::srgb().xyz_from_rgb * DVec3::from(*rgb)).to_array()).collect();
+        Displayed::new(&Image::xyz(width, xyz).unwrap(), 1.0)
     }
 
-    fn map(width: usize, test: &[[f64; 3]], reference: &[[f64; 3]]) -> Vec<f64> {
-        flip_map(width, &shown(test), &shown(reference), FLIP_PIXELS_PER_DEGREE)
+    fn map(width: u32, test: &[[f64; 3]], reference: &[[f64; 3]]) -> Vec<f64> {
+        flip_map(&shown(width, test), &shown(width, reference), FLIP_PIXELS_PER_DEGREE).plane(0).collect()
     }
 
     #[test]

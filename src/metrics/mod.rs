@@ -24,7 +24,7 @@ pub use bias::{Bias, bias};
 pub use difference::{ColorDifference, color_difference, color_difference_map};
 pub use display::Displayed;
 pub use flip::{FLIP_PIXELS_PER_DEGREE, flip, flip_map};
-pub use pair::{Pair, Pixel};
+pub use pair::Pair;
 pub use percentage::{mape, smape};
 pub use psnr::psnr;
 pub use relmse::{relative_error_map, relative_mse, trimmed_relative_mse};

@@ -2,27 +2,27 @@
 
 use crate::math;
 
-/// Arithmetic mean; NaN of nothing.
+/// Computes the arithmetic mean, which is NaN without values.
 pub fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Sample standard deviation (divisor n − 1); NaN for fewer than two values.
+/// Computes the sample standard deviation (divisor n − 1), which is NaN for fewer than two values.
 pub fn standard_deviation(values: &[f64]) -> f64 {
     let m = mean(values);
     let squares: f64 = values.iter().map(|v| (v - m) * (v - m)).sum();
     if values.len() < 2 { f64::NAN } else { (squares / (values.len() - 1) as f64).sqrt() }
 }
 
-/// Quantile at `p` in [0, 1], linear between order statistics (the 7th definition of \[Hyndman1996\]); NaN of nothing.
-/// The values need not be sorted.
+/// Computes the quantile at `p` in [0, 1], linear between order statistics (the 7th definition of \[Hyndman1996\]). It is NaN
+/// without values. The values need not be sorted.
 pub fn quantile(values: &[f64], p: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     quantile_of_sorted(&sorted, p)
 }
 
-/// [`quantile`] of values in ascending order.
+/// Computes the [`quantile`] of values that are in ascending order.
 pub fn quantile_of_sorted(sorted: &[f64], p: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
     let at = p.clamp(0.0, 1.0) * last as f64;
@@ -31,12 +31,13 @@ pub fn quantile_of_sorted(sorted: &[f64], p: f64) -> f64 {
     sorted[below] + (sorted[above] - sorted[below]) * (at - below as f64)
 }
 
-/// Where the distribution function of Student's t with `freedom` > 0 degrees of freedom is `p` in (0, 1).
+/// Computes the quantile at `p` in (0, 1) of Student's t distribution with `freedom` > 0 degrees of freedom.
 pub fn student_t_quantile(p: f64, freedom: f64) -> f64 {
     if p < 0.5 {
         return -student_t_quantile(1.0 - p, freedom);
     }
-    // With z = t² / (ν + t²), I_z(1/2, ν/2) lies within ±t, and I_(1 − z)(ν/2, 1/2) outside: solve for what is small.
+    // With z = t² / (ν + t²), the probability within ±t is I_z(1/2, ν/2), and that outside I_(1 − z)(ν/2, 1/2). The
+    // smaller one is solved for, since it loses no digits.
     if p < 0.75 {
         let z = inverse(|z| incomplete_beta(z, 0.5, 0.5 * freedom), 2.0 * p - 1.0);
         (freedom * z / (1.0 - z)).sqrt()
@@ -46,7 +47,7 @@ pub fn student_t_quantile(p: f64, freedom: f64) -> f64 {
     }
 }
 
-/// Where a rising function on [0, 1] has a value, by bisection.
+/// Finds where a rising function on [0, 1] has a value, by bisection.
 fn inverse(function: impl Fn(f64) -> f64, value: f64) -> f64 {
     let (mut low, mut high) = (0.0f64, 1.0f64);
     for _ in 0..200 {
@@ -56,12 +57,12 @@ fn inverse(function: impl Fn(f64) -> f64, value: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// The regularised incomplete beta function I_x(a, b) by its continued fraction \[DLMF\] 8.17.22, with Lentz's method.
+/// Computes the regularised incomplete beta function I_x(a, b) by its continued fraction \[DLMF\] 8.17.22, with Lentz's method.
 fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
     if x <= 0.0 || x >= 1.0 {
         return x.clamp(0.0, 1.0);
     }
-    // The fraction converges fast on this side.
+    // The continued fraction converges fast for x below the mean of the beta distribution; above, the other tail is computed.
     if x > (a + 1.0) / (a + b + 2.0) {
         return 1.0 - incomplete_beta(1.0 - x, b, a);
     }
@@ -94,13 +95,13 @@ fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
 pub struct Line {
     /// y at x = 0.
     pub intercept: f64,
-    /// Change of y with x.
+    /// Change of y for a change of x by 1.
     pub slope: f64,
     /// Standard error of the slope from the residuals; NaN for fewer than three points.
     pub slope_error: f64,
 }
 
-/// The line of least squares with given weights; `None` unless two different x have positive weight.
+/// Fits a line by least squares with given weights. Returns `None` unless two different x have positive weight.
 pub fn fit_line(points: &[(f64, f64)], weights: &[f64]) -> Option<Line> {
     let weighted = || points.iter().zip(weights).filter(|(_, w)| **w > 0.0);
     let total: f64 = weighted().map(|(_, w)| w).sum();

@@ -22,6 +22,7 @@ use Grant::{Items, Module};
 const RULES: &[(&str, &[Grant])] = &[
     ("math", &[]),
     ("error", &[]),
+    ("image", &[]),
     ("references", &[]),
     ("geometry", &[]),
     ("sampling", &[]),

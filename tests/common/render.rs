@@ -46,13 +46,15 @@ pub fn with(scene: &Value, pointer: &str, value: impl Into<Value>) -> Value {
 
 /// Mean X + Y + Z of a film: positive at every visible wavelength.
 pub fn mean_xyz_sum(film: &Film) -> f64 {
-    let image = film.to_xyz();
+    let picture = film.to_image();
+    let image = picture.triples();
     image.iter().flatten().sum::<f64>() / image.len() as f64
 }
 
 /// Mean Y of a film.
 pub fn mean_y(film: &Film) -> f64 {
-    let image = film.to_xyz();
+    let picture = film.to_image();
+    let image = picture.triples();
     image.iter().map(|xyz| xyz[1]).sum::<f64>() / image.len() as f64
 }
 

@@ -55,7 +55,7 @@ fn of_variant(session: &Session, work: &Work, variant: &Variant, reference: &Ref
     let run = |seed: u64| {
         let settings = RenderSettings { seed, target_error, adaptive: true, ..plain };
         let (picture, mut run) = measure::abbe(session, work, &settings);
-        run.judge(work, &picture, reference, None)?;
+        run.judge(&picture, reference, None)?;
         Ok(run)
     };
     let runs = (first_seed..first_seed + session.args.replicates.max(RUNS)).map(run).collect::<Result<_>>()?;

@@ -3,11 +3,11 @@
 use super::plot::{self, escaped};
 use super::table::columns;
 use super::{SceneReport, Session};
-use crate::Result;
 use crate::cli::heat;
 use crate::develop::{self, Picture, Tonemap};
 use crate::io::png;
 use crate::metrics::{self, Pair};
+use crate::{Image, Result};
 
 const STYLE: &str = "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:76rem;padding:0 1rem;color:#222}\
 h1{font-size:1.5rem}h2{font-size:1.2rem;margin-top:2.5rem}table{border-collapse:collapse;font-variant-numeric:tabular-nums}\
@@ -75,15 +75,15 @@ fn table(session: &Session, report: &SceneReport) -> String {
 /// The reference, and for each variant a picture of its largest budget beside its error.
 fn pictures(report: &SceneReport) -> Result<String> {
     let exposure_ev = develop::automatic_exposure(&report.reference.mean);
-    let shown = |xyz: &[[f64; 3]]| png_uri(&develop::develop(xyz, report.width, Some(exposure_ev), Tonemap::Srgb));
+    let shown = |xyz: &Image| png_uri(&develop::develop(xyz, Some(exposure_ev), Tonemap::Srgb));
     let mut text = figure(&shown(&report.reference.mean)?, "reference");
-    for v in report.variants.iter().filter(|v| !v.picture.is_empty()) {
-        let pair = Pair::new(report.width, &v.picture, &report.reference.mean, None)?;
-        let rgb8 = metrics::relative_error_map(&pair).into_iter().map(heat::color).collect();
-        let error = png_uri(&Picture { width: report.width, rgb8, exposure_ev, out_of_gamut: 0.0 })?;
+    for v in &report.variants {
+        let Some(picture) = &v.picture else { continue };
+        let pair = Pair::new(picture, &report.reference.mean, None)?;
+        let error = png_uri(&heat::picture(&metrics::relative_error_map(&pair), 0, 1.0))?;
         let spp = v.levels.last().map_or(0, |level| level.spp);
         let name = escaped(&v.variant.name);
-        text += &figure(&shown(&v.picture)?, &format!("{name}, {spp} samples per pixel"));
+        text += &figure(&shown(picture)?, &format!("{name}, {spp} samples per pixel"));
         text += &figure(&error, &format!("{name}: relative error, white is 100 %"));
     }
     Ok(text)

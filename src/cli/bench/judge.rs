@@ -1,15 +1,15 @@
 //! The errors of a picture against the reference.
 
-use super::measure::{Image, Run};
+use super::measure::Run;
+use super::reference::Reference;
 use super::variant::{Kind, Variant};
-use super::{reference::Reference, work::Work};
-use crate::Result;
 use crate::metrics::{self, Pair};
+use crate::{Image, Result};
 
 impl Run {
     /// Fills in the errors of a picture.
-    pub fn judge(&mut self, work: &Work, picture: &Image, reference: &Reference, mask: Option<&[bool]>) -> Result<()> {
-        let pair = Pair::new(work.size()[0], picture, &reference.mean, mask)?;
+    pub fn judge(&mut self, picture: &Image, reference: &Reference, mask: Option<&[bool]>) -> Result<()> {
+        let pair = Pair::new(picture, &reference.mean, mask)?;
         self.raw_relmse = metrics::relative_mse(&pair);
         self.trimmed_relmse = metrics::trimmed_relative_mse(&pair);
         self.non_finite_pixels = pair.non_finite()[0];
@@ -18,16 +18,15 @@ impl Run {
 }
 
 /// Brings the picture of another program to the reference's scale.
-pub fn rescale(work: &Work, variant: &Variant, picture: &mut Image, reference: &Reference) -> Result<()> {
-    let Kind::Command { scale, .. } = variant.kind else { return Ok(()) };
+pub fn rescale(variant: &Variant, picture: Image, reference: &Reference) -> Result<Image> {
+    let Kind::Command { scale, .. } = variant.kind else { return Ok(picture) };
     let factor = match scale {
         Some(factor) => factor,
         None => {
-            let pair = Pair::new(work.size()[0], picture, &reference.mean, None)?;
+            let pair = Pair::new(&picture, &reference.mean, None)?;
             let mean = pair.pixels().flat_map(|(test, _)| test).sum::<f64>() / (3 * pair.count()) as f64;
             if mean > 0.0 { pair.mean() / mean } else { 1.0 }
         }
     };
-    picture.iter_mut().for_each(|pixel| *pixel = pixel.map(|v| v * factor));
-    Ok(())
+    Ok(picture.map(|v| v * factor))
 }

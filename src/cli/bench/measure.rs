@@ -6,14 +6,11 @@ use crate::cli::process;
 use crate::io::exr::{self, Preference};
 use crate::render::{Phase, Progress, Rendering, render};
 use crate::scene::RenderSettings;
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Image, Result};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-
-/// A picture in XYZ.
-pub type Image = Vec<[f64; 3]>;
 
 /// What one run cost and how good it was.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -108,7 +105,7 @@ pub fn abbe(session: &Session, work: &Work, settings: &RenderSettings) -> (Image
     let compiled = &work.compiled;
     let (picture, rendering) = session.pool.install(|| {
         let rendering = render(&compiled.scene, settings, &compiled.film, &mut |_: Progress| true);
-        (rendering.film.to_xyz(), rendering)
+        (rendering.film.to_image(), rendering)
     });
     let statistics = &rendering.statistics;
     let run = Run {
@@ -154,15 +151,15 @@ fn command(
         peak_memory_bytes,
         ..Run::default()
     };
-    let picture = exr::read_file(&out, Preference::Xyz, None)?;
-    let found = [picture.width, picture.xyz.len() as u32 / picture.width];
+    let picture = exr::read_file(&out, Preference::Xyz, None)?.xyz;
+    let found = picture.size();
     if found != [width, height] {
         let message = format!("{name} wrote {}x{} pixels; expected {width}x{height}", found[0], found[1]);
         return Err(Error::new(ErrorKind::OutOfRange, message).in_file(&out));
     }
     // It is read; that it stays where it cannot be removed harms nobody.
     let _ = std::fs::remove_file(&out);
-    Ok((picture.xyz, run))
+    Ok((picture, run))
 }
 
 fn quoted(path: &Path) -> String {

@@ -8,17 +8,19 @@ mod output;
 mod plot;
 mod reference;
 mod summary;
+mod sums;
 mod table;
 mod variant;
 mod work;
 
 use crate::cli::compare::read_mask;
 use crate::cli::{usage, write_data};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Image, Result};
 use measure::{Clock, Run};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use summary::{Level, Summary};
+use sums::Sums;
 use variant::Variant;
 use work::Work;
 
@@ -108,7 +110,7 @@ struct VariantReport {
     levels: Vec<Level>,
     summary: Summary,
     /// One picture of the largest budget, in XYZ.
-    picture: Vec<[f64; 3]>,
+    picture: Option<Image>,
 }
 
 /// What holds for all scenes.
@@ -185,7 +187,7 @@ impl<'a> Session<'a> {
         }
         let reference = reference::get(self, &work, mask.as_deref())?;
         self.say(&format!("{}: {}", work.name, reference.told()));
-        let mut progress: Vec<Progress> = self.variants.iter().map(|v| Progress::new(v, work.pixels())).collect();
+        let mut progress: Vec<Progress> = self.variants.iter().map(|v| Progress::new(v, work.size())).collect();
         self.measure(&work, mask.as_deref(), &reference, &mut progress)?;
         let variants = progress
             .into_iter()
@@ -225,14 +227,14 @@ impl<'a> Session<'a> {
                 let seed = self.args.seed + level * self.args.replicates + replicate;
                 for k in 0..order.len() {
                     let p = &mut progress[order[(k + replicate as usize) % order.len()]];
-                    let (mut picture, mut run) = measure::measure(self, work, p.variant, spp, seed)?;
-                    judge::rescale(work, p.variant, &mut picture, reference)?;
-                    run.judge(work, &picture, reference, mask)?;
+                    let (picture, mut run) = measure::measure(self, work, p.variant, spp, seed)?;
+                    let picture = judge::rescale(p.variant, picture, reference)?;
+                    run.judge(&picture, reference, mask)?;
                     p.add(run, picture);
                 }
             }
             for &i in &order {
-                progress[i].finish_level(spp, work, reference, mask, self.lowest_target())?;
+                progress[i].finish_level(spp, reference, mask, self.lowest_target())?;
                 self.say(&format!("{}: {}", work.name, progress[i].told()));
             }
             spp *= 2;
@@ -246,27 +248,17 @@ struct Progress<'v> {
     variant: &'v Variant,
     levels: Vec<Level>,
     runs: Vec<Run>,
-    /// Sums of the values and of their squares over the runs of a level.
-    sums: Vec<[f64; 3]>,
-    squares: Vec<[f64; 3]>,
-    picture: Vec<[f64; 3]>,
+    /// Sums over the runs of a level.
+    sums: Sums,
+    picture: Option<Image>,
     spent: f64,
     done: bool,
 }
 
 impl<'v> Progress<'v> {
-    fn new(variant: &'v Variant, pixels: usize) -> Self {
-        let zero = vec![[0.0; 3]; pixels];
-        Self {
-            variant,
-            levels: Vec::new(),
-            runs: Vec::new(),
-            sums: zero.clone(),
-            squares: zero,
-            picture: Vec::new(),
-            spent: 0.0,
-            done: false,
-        }
+    fn new(variant: &'v Variant, size: [u32; 2]) -> Self {
+        let (levels, runs) = (Vec::new(), Vec::new());
+        Self { variant, levels, runs, sums: Sums::new(size), picture: None, spent: 0.0, done: false }
     }
 
     /// Whether the next level, of twice the cost, fits into what is left. The first two are always measured, for a line
@@ -276,34 +268,25 @@ impl<'v> Progress<'v> {
         !self.done && (self.levels.len() < 2 || self.spent + 2.0 * last <= share)
     }
 
-    fn add(&mut self, run: Run, picture: Vec<[f64; 3]>) {
+    fn add(&mut self, run: Run, picture: Image) {
         self.spent += run.wall_seconds;
-        for ((sum, square), pixel) in self.sums.iter_mut().zip(&mut self.squares).zip(&picture) {
-            for c in 0..3 {
-                sum[c] += pixel[c];
-                square[c] += pixel[c] * pixel[c];
-            }
-        }
+        self.sums.add(&picture);
         self.runs.push(run);
-        self.picture = picture;
+        self.picture = Some(picture);
     }
 
     fn finish_level(
         &mut self,
         spp: u64,
-        work: &Work,
         reference: &reference::Reference,
         mask: Option<&[bool]>,
         lowest_target: f64,
     ) -> Result<()> {
-        let n = self.runs.len() as f64;
-        let mean: Vec<[f64; 3]> = self.sums.iter().map(|sum| sum.map(|v| v / n)).collect();
-        let systematic = reference.systematic_error(work, &mean, &self.squares, n, mask)?;
+        let sums = std::mem::replace(&mut self.sums, Sums::new(reference.mean.size()));
+        let systematic = reference.systematic_error(&sums, mask)?;
         let level = Level::new(spp, std::mem::take(&mut self.runs), reference.own_relmse(), systematic);
         self.done = self.levels.len() >= 2 && level.relmse < FAR_BELOW * lowest_target;
         self.levels.push(level);
-        self.sums.fill([0.0; 3]);
-        self.squares.fill([0.0; 3]);
         Ok(())
     }
 

@@ -2,17 +2,17 @@
 //! known, and kept for the next time.
 
 use super::Session;
-use super::measure::{self, Image, Run};
+use super::measure::{self, Run};
+use super::sums::Sums;
 use super::variant::Kind;
 use super::work::{Work, hash_bytes};
 use crate::cli::names::{INTEGRATORS, integrator_name, named};
 use crate::cli::usage;
-use crate::io::exr::encode_planes;
 use crate::io::exr::{self, Preference};
 use crate::io::output::write_atomically;
 use crate::metrics::{self, Pair};
 use crate::scene::{Integrator, RenderSettings};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Image, Result};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -91,33 +91,21 @@ impl Reference {
         }
     }
 
-    /// The error that more samples would not remove, as a relMSE: that of the mean of `n` runs, less what their spread
-    /// (given by the sums of their squares) and the reference's own error explain. About 0, of either sign, for a technique
-    /// that is right.
-    pub fn systematic_error(
-        &self,
-        work: &Work,
-        mean: &Image,
-        squares: &Image,
-        n: f64,
-        mask: Option<&[bool]>,
-    ) -> Result<f64> {
-        let variance: Image = mean
-            .iter()
-            .zip(squares)
-            .map(|(m, s)| [0, 1, 2].map(|c| ((s[c] / n - m[c] * m[c]) / (n - 1.0)).max(0.0)))
-            .collect();
-        let pair = Pair::new(work.size()[0], mean, &self.mean, mask)?;
-        let of_spread = relative_to(&self.mean, &variance, work, mask)?;
+    /// Estimates the error that more samples would not remove, as a relMSE: that of the mean of some runs, less what their
+    /// spread and the reference's own error explain. About 0, of either sign, for a technique that is right.
+    pub fn systematic_error(&self, runs: &Sums, mask: Option<&[bool]>) -> Result<f64> {
+        let (n, mean) = (f64::from(runs.runs), runs.mean());
+        let variance = mean.zip_with(&runs.squares, |m, s| ((s / n - m * m) / (n - 1.0)).max(0.0));
+        let pair = Pair::new(&mean, &self.mean, mask)?;
+        let of_spread = relative_to(&self.mean, &variance, mask)?;
         Ok(metrics::relative_mse(&pair) - of_spread - self.own_relmse)
     }
 }
 
 /// The mean over pixels and channels of variance / (R² + 0.01 m²): the relMSE that a variance amounts to.
-fn relative_to(reference: &Image, variance: &Image, work: &Work, mask: Option<&[bool]>) -> Result<f64> {
-    let noisy: Image =
-        reference.iter().zip(variance).map(|(r, v)| [0, 1, 2].map(|c| r[c] + v[c].max(0.0).sqrt())).collect();
-    Ok(metrics::relative_mse(&Pair::new(work.size()[0], &noisy, reference, mask)?))
+fn relative_to(reference: &Image, variance: &Image, mask: Option<&[bool]>) -> Result<f64> {
+    let noisy = reference.zip_with(variance, |r, v| r + v.max(0.0).sqrt());
+    Ok(metrics::relative_mse(&Pair::new(&noisy, reference, mask)?))
 }
 
 /// The reference of a scene: a file, one made earlier, or one made now.
@@ -132,12 +120,12 @@ pub fn get(session: &Session, work: &Work, mask: Option<&[bool]>) -> Result<Refe
         Some(reference) => reference,
         None => {
             let made = make(session, work, (integrator, why))?;
-            keep(&made, &path, work)?;
+            keep(&made, &path)?;
             made
         }
     };
     if let Some(variance) = &reference.variance {
-        reference.own_relmse = relative_to(&reference.mean, variance, work, mask)?;
+        reference.own_relmse = relative_to(&reference.mean, variance, mask)?;
     }
     Ok(reference)
 }
@@ -186,14 +174,13 @@ fn from_file(work: &Work, path: &Path) -> Result<Reference> {
 }
 
 fn picture_of_size(path: &Path, work: &Work) -> Result<Image> {
-    let picture = exr::read_file(path, Preference::Xyz, None)?;
-    let [width, height] = work.size();
-    let found = picture.xyz.len() as u32 / picture.width;
-    if [picture.width, found] != [width, height] {
-        let message = format!("{}x{found} pixels; expected {width}x{height}, as the scene has", picture.width);
+    let picture = exr::read_file(path, Preference::Xyz, None)?.xyz;
+    let [[a, b], [width, height]] = [picture.size(), work.size()];
+    if [a, b] != [width, height] {
+        let message = format!("{a}x{b} pixels; expected {width}x{height}, as the scene has");
         return Err(Error::new(ErrorKind::OutOfRange, message).in_file(path));
     }
-    Ok(picture.xyz)
+    Ok(picture)
 }
 
 /// Reads a reference that was kept; `None` unless all its files are there.
@@ -206,17 +193,13 @@ fn from_cache(path: &Path, work: &Work, (integrator, why): (Integrator, &'static
     Some(Reference { mean, variance, origin, own_relmse: 0.0 })
 }
 
-fn keep(reference: &Reference, path: &Path, work: &Work) -> Result<()> {
+fn keep(reference: &Reference, path: &Path) -> Result<()> {
     let folder = path.parent().unwrap_or(Path::new(""));
     std::fs::create_dir_all(folder)
         .map_err(|e| Error::new(ErrorKind::Io, format!("cannot make the folder: {e}")).in_file(folder))?;
-    let encode = |image: &Image| {
-        let plane = |c: usize| image.iter().map(|pixel| pixel[c] as f32).collect();
-        encode_planes(vec![("X", plane(0)), ("Y", plane(1)), ("Z", plane(2))], work.size()[0])
-    };
-    write_atomically(path, &encode(&reference.mean)?)?;
+    write_atomically(path, &exr::encode_image(&reference.mean)?)?;
     if let Some(variance) = &reference.variance {
-        write_atomically(&path.with_extension("variance.exr"), &encode(variance)?)?;
+        write_atomically(&path.with_extension("variance.exr"), &exr::encode_image(variance)?)?;
     }
     write_atomically(&path.with_extension("json"), format!("{:#}\n", reference.to_json()).as_bytes())
 }
@@ -243,7 +226,7 @@ fn make(session: &Session, work: &Work, (integrator, why): (Integrator, &'static
                 pilot_spp *= 2;
             };
             let variance = pilot.variance.as_ref().ok_or_else(|| usage("a reference without a variance"))?;
-            let error = relative_to(&pilot.mean, variance, work, None)?;
+            let error = relative_to(&pilot.mean, variance, None)?;
             let wanted = error / (SHARE_OF_TARGET * session.lowest_target());
             let affordable = session.args.time_limit / run.wall_seconds.max(f64::MIN_POSITIVE);
             let factor = wanted.min(affordable).clamp(1.0, 65536.0);
@@ -264,25 +247,16 @@ fn mean_of_runs(
     first_seed: u64,
 ) -> (Reference, Run) {
     let n = RUNS as f64;
-    let mut sums = vec![[0.0; 3]; work.pixels()];
-    let mut squares = sums.clone();
+    let mut sums = Sums::new(work.size());
     let mut cost = Run::default();
     for seed in first_seed..first_seed + RUNS {
         let (picture, run) = measure::abbe(session, work, &RenderSettings { samples_per_pixel, seed, ..*settings });
-        for ((sum, square), pixel) in sums.iter_mut().zip(&mut squares).zip(&picture) {
-            for c in 0..3 {
-                sum[c] += pixel[c];
-                square[c] += pixel[c] * pixel[c];
-            }
-        }
+        sums.add(&picture);
         cost.wall_seconds += run.wall_seconds;
         cost.cpu_seconds += run.cpu_seconds;
     }
-    let variance = |(sum, square): (&[f64; 3], &[f64; 3])| {
-        [0, 1, 2].map(|c| ((square[c] - sum[c] * sum[c] / n) / (n * (n - 1.0))).max(0.0))
-    };
-    let variance = sums.iter().zip(&squares).map(variance).collect();
-    let mean = sums.into_iter().map(|sum| sum.map(|v| v / n)).collect();
+    let variance =
+        sums.values.zip_with(&sums.squares, |sum, square| ((square - sum * sum / n) / (n * (n - 1.0))).max(0.0));
     let origin = Origin::File(PathBuf::new());
-    (Reference { mean, variance: Some(variance), origin, own_relmse: 0.0 }, cost)
+    (Reference { mean: sums.mean(), variance: Some(variance), origin, own_relmse: 0.0 }, cost)
 }

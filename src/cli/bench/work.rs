@@ -45,11 +45,6 @@ impl Work {
         [self.compiled.film.width, self.compiled.film.height]
     }
 
-    /// Pixels of a picture.
-    pub fn pixels(&self) -> usize {
-        self.size().into_iter().map(|n| n as usize).product()
-    }
-
     /// Whether camera paths can find everything: they miss caustics of lights without extent.
     pub fn camera_paths_see_all(&self) -> bool {
         let without_extent = |kind: &LightKind| match kind {

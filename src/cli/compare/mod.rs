@@ -5,12 +5,12 @@ mod report;
 use super::values::exposure;
 use super::{heat, usage, write_data};
 use crate::color::RgbSpace;
-use crate::develop::{self, Picture};
+use crate::develop;
 use crate::io::exr::{self, Preference, ReadPicture};
 use crate::io::output::write_atomically;
 use crate::io::{mask, png};
-use crate::metrics::{self, Displayed, Pair, Pixel};
-use crate::{Error, ErrorKind, Result, math};
+use crate::metrics::{self, Displayed, Pair};
+use crate::{Error, ErrorKind, Image, Result, math};
 use clap::ValueEnum;
 use glam::DVec3;
 use report::{Report, threshold};
@@ -82,16 +82,6 @@ pub enum Map {
     Flip,
 }
 
-/// Maps and differences, for `-o`.
-struct Maps {
-    width: u32,
-    error: Vec<f64>,
-    delta_e: Vec<f64>,
-    flip: Vec<f64>,
-    /// A − B in XYZ.
-    signed: Vec<Pixel>,
-}
-
 /// Compares. The exit code is 4 if a threshold is exceeded.
 ///
 /// # Errors
@@ -108,7 +98,7 @@ pub fn run(args: &CompareArgs) -> Result<ExitCode> {
     let (test, reference) = (test?, reference?);
     let (report, maps) = compare(args, &test, &reference)?;
     for path in &args.output {
-        write_atomically(path, &maps.encode(path, args.map)?)?;
+        write_atomically(path, &encode(&maps, path, args.map)?)?;
     }
     if report.non_finite != [0, 0] && !args.quiet {
         let [a, b] = report.non_finite;
@@ -154,20 +144,22 @@ fn read_stdin(preference: Preference, layer: Option<&str>) -> Result<ReadPicture
     exr::decode(&bytes, preference, layer).map_err(|error| error.in_file("<stdin>"))
 }
 
-fn compare(args: &CompareArgs, test: &ReadPicture, reference: &ReadPicture) -> Result<(Report, Maps)> {
-    let [width, height] = same_size(args, test, reference)?;
-    let mask = args.mask.as_deref().map(|path| read_mask(path, [width, height])).transpose()?;
-    let scale = scale(args, width, test, reference, mask.as_deref())?;
-    let scaled: Vec<Pixel> = test.xyz.iter().map(|pixel| pixel.map(|v| v * scale)).collect();
-    let values = |xyz: &[Pixel]| -> Vec<Pixel> {
-        let rgb_from_xyz = RgbSpace::srgb().rgb_from_xyz;
-        match args.channels {
-            Channels::Xyz => xyz.to_vec(),
-            Channels::Rgb => xyz.iter().map(|pixel| (rgb_from_xyz * DVec3::from(*pixel)).to_array()).collect(),
+/// Compares two pictures. Also makes a picture of their difference in XYZ, and beside it the map of each metric.
+fn compare(args: &CompareArgs, test: &ReadPicture, reference: &ReadPicture) -> Result<(Report, Image)> {
+    let size = same_size(args, &test.xyz, &reference.xyz)?;
+    let mask = args.mask.as_deref().map(|path| read_mask(path, size)).transpose()?;
+    let scale = scale(args, &test.xyz, &reference.xyz, mask.as_deref())?;
+    let scaled = test.xyz.map(|v| v * scale);
+    let values = |xyz: &Image| match args.channels {
+        Channels::Xyz => xyz.clone(),
+        Channels::Rgb => {
+            let rgb_from_xyz = RgbSpace::srgb().rgb_from_xyz;
+            let pixels = xyz.triples().iter().flat_map(|pixel| (rgb_from_xyz * DVec3::from(*pixel)).to_array());
+            Image::new(size, &["R", "G", "B"], pixels.collect())
         }
     };
     let (test_values, reference_values) = (values(&scaled), values(&reference.xyz));
-    let pair = Pair::new(width, &test_values, &reference_values, mask.as_deref())?;
+    let pair = Pair::new(&test_values, &reference_values, mask.as_deref())?;
 
     let exposure_ev = exposure(&args.exposure)?.unwrap_or_else(|| develop::automatic_exposure(&reference.xyz));
     let factor = math::exp(exposure_ev * std::f64::consts::LN_2);
@@ -179,11 +171,10 @@ fn compare(args: &CompareArgs, test: &ReadPicture, reference: &ReadPicture) -> R
         )));
     }
     let delta_e = metrics::color_difference_map(&shown[0], &shown[1]);
-    let flip = metrics::flip_map(width as usize, &shown[0], &shown[1], args.pixels_per_degree);
+    let flip = metrics::flip_map(&shown[0], &shown[1], args.pixels_per_degree);
     let report = Report {
         sources: [test.source, reference.source],
-        width,
-        height,
+        size,
         pixels: pair.count(),
         non_finite: pair.non_finite(),
         scale,
@@ -197,52 +188,38 @@ fn compare(args: &CompareArgs, test: &ReadPicture, reference: &ReadPicture) -> R
         flip: metrics::flip(&pair, &flip),
         bias: metrics::bias(&pair),
     };
-    let difference = |(a, b): (&Pixel, &Pixel)| [0, 1, 2].map(|c| a[c] - b[c]);
-    let signed = scaled.iter().zip(&reference.xyz).map(difference).collect();
-    Ok((report, Maps { width, error: metrics::relative_error_map(&pair), delta_e, flip, signed }))
+    let difference = scaled.zip_with(&reference.xyz, |a, b| a - b);
+    Ok((report, difference.beside(&metrics::relative_error_map(&pair)).beside(&delta_e).beside(&flip)))
 }
 
-fn same_size(args: &CompareArgs, test: &ReadPicture, reference: &ReadPicture) -> Result<[u32; 2]> {
-    let [a, b] = [test, reference].map(|picture| [picture.width, picture.xyz.len() as u32 / picture.width]);
-    if a != b {
-        let message = format!(
-            "{} has {}x{} pixels, {} has {}x{}; expected pictures of the same size",
-            args.test.display(),
-            a[0],
-            a[1],
-            args.reference.display(),
-            b[0],
-            b[1]
-        );
+fn same_size(args: &CompareArgs, test: &Image, reference: &Image) -> Result<[u32; 2]> {
+    let [[a, b], [c, d]] = [test.size(), reference.size()];
+    if [a, b] != [c, d] {
+        let [test, reference] = [&args.test, &args.reference].map(|path| path.display());
+        let message = format!("{test} has {a}x{b} pixels, {reference} has {c}x{d}; expected pictures of the same size");
         return Err(Error::new(ErrorKind::OutOfRange, message));
     }
-    Ok(a)
+    Ok([a, b])
 }
 
-/// A mask for pictures of a size.
+/// Reads which pixels of pictures of a size count.
 pub(super) fn read_mask(path: &Path, size: [u32; 2]) -> Result<Vec<bool>> {
-    let (width, mask) = mask::read_file(path)?;
-    let height = mask.len() as u32 / width.max(1);
-    if [width, height] != size {
-        let message = format!("a mask of {width}x{height} pixels; expected {}x{}", size[0], size[1]);
+    let mask = mask::read_file(path)?;
+    if mask.size() != size {
+        let [[a, b], [width, height]] = [mask.size(), size];
+        let message = format!("a mask of {a}x{b} pixels; expected {width}x{height}");
         return Err(Error::new(ErrorKind::OutOfRange, message).in_file(path));
     }
-    Ok(mask)
+    Ok(mask.plane(0).map(|v| v > 0.5).collect())
 }
 
 /// The factor of A. The quotient of the means is not swayed by noise, as a factor of least squares would be.
-fn scale(
-    args: &CompareArgs,
-    width: u32,
-    test: &ReadPicture,
-    reference: &ReadPicture,
-    mask: Option<&[bool]>,
-) -> Result<f64> {
+fn scale(args: &CompareArgs, test: &Image, reference: &Image, mask: Option<&[bool]>) -> Result<f64> {
     if args.scale != "auto" {
         let factor: Option<f64> = args.scale.parse().ok().filter(|s: &f64| s.is_finite() && *s > 0.0);
         return factor.ok_or_else(|| usage(format!("--scale {}: expected a positive factor, or auto", args.scale)));
     }
-    let pair = Pair::new(width, &test.xyz, &reference.xyz, mask)?;
+    let pair = Pair::new(test, reference, mask)?;
     let test_mean = pair.pixels().flat_map(|(test, _)| test).sum::<f64>() / (3 * pair.count()) as f64;
     if !(test_mean > 0.0 && pair.mean() > 0.0) {
         let message = format!("--scale auto: the means are {test_mean} and {}; expected both positive", pair.mean());
@@ -251,24 +228,17 @@ fn scale(
     Ok(pair.mean() / test_mean)
 }
 
-impl Maps {
-    fn encode(&self, path: &Path, map: Map) -> Result<Vec<u8>> {
-        if extension(path).as_deref() == Some("exr") {
-            let signed = |c: usize| self.signed.iter().map(|pixel| pixel[c] as f32).collect();
-            let narrow = |map: &[f64]| map.iter().map(|v| *v as f32).collect();
-            let maps = [("relativeError", &self.error), ("deltaE2000", &self.delta_e), ("FLIP", &self.flip)];
-            let mut planes: Vec<(&str, Vec<f32>)> = vec![("X", signed(0)), ("Y", signed(1)), ("Z", signed(2))];
-            planes.extend(maps.map(|(name, map)| (name, narrow(map))));
-            return exr::encode_planes(planes, self.width);
-        }
-        let (map, white) = match map {
-            Map::Error => (&self.error, 1.0),
-            Map::DeltaE => (&self.delta_e, 10.0),
-            Map::Flip => (&self.flip, 1.0),
-        };
-        let rgb8 = map.iter().map(|value| heat::color(value / white)).collect();
-        png::encode(&Picture { width: self.width, rgb8, exposure_ev: 0.0, out_of_gamut: 0.0 })
+/// Encodes all maps as an EXR, or one of them in false colours.
+fn encode(maps: &Image, path: &Path, map: Map) -> Result<Vec<u8>> {
+    if extension(path).as_deref() == Some("exr") {
+        return exr::encode_image(maps);
     }
+    let (channel, white) = match map {
+        Map::Error => (3, 1.0),
+        Map::DeltaE => (4, 10.0),
+        Map::Flip => (5, 1.0),
+    };
+    png::encode(&heat::picture(maps, channel, white))
 }
 
 /// The JSON or the table to stdout, what is exceeded to stderr.

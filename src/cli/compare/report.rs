@@ -11,10 +11,8 @@ use std::fmt::Write;
 pub struct Report {
     /// What A and B were read from.
     pub sources: [Source; 2],
-    /// Pixels a row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
+    /// Pixels in a row, and rows.
+    pub size: [u32; 2],
     /// Pixels that count.
     pub pixels: usize,
     /// Pixels of A and B that are not finite.
@@ -108,7 +106,7 @@ impl Report {
         json!({
             "a": args.test, "b": args.reference,
             "sources": self.sources.map(told),
-            "width": self.width, "height": self.height, "pixels": self.pixels,
+            "width": self.size[0], "height": self.size[1], "pixels": self.pixels,
             "non_finite_pixels": { "a": self.non_finite[0], "b": self.non_finite[1] },
             "channels": names(args.channels).concat().to_lowercase(),
             "scale": self.scale, "exposure_ev": self.exposure_ev,
@@ -125,14 +123,14 @@ impl Report {
     pub fn to_table(&self, args: &CompareArgs) -> String {
         let [from_a, from_b] = self.sources.map(told);
         let (a, b) = (args.test.display(), args.reference.display());
-        let all = self.pixels as u64 == u64::from(self.width) * u64::from(self.height);
+        let all = self.pixels as u64 == u64::from(self.size[0]) * u64::from(self.size[1]);
         let pixels = if all { String::new() } else { format!(", {} pixels of them", self.pixels) };
         let scaled = if self.scale == 1.0 { String::new() } else { format!(", A times {:.6}", self.scale) };
         let d = self.color_difference;
         let psnr =
             if self.psnr.is_finite() { format!("{:.2} dB", self.psnr) } else { "infinite: no difference".into() };
         let lines = [
-            format!("{a} ({from_a}) against {b} ({from_b}), {}x{}{pixels}{scaled}", self.width, self.height),
+            format!("{a} ({from_a}) against {b} ({from_b}), {}x{}{pixels}{scaled}", self.size[0], self.size[1]),
             String::new(),
             format!("relMSE   {}, without the worst 0.1 % {}", number(self.relmse), number(self.trimmed_relmse)),
             format!("MAPE     {}, SMAPE {}", percent(self.mape), percent(self.smape)),

@@ -48,7 +48,7 @@ const NAMED: [(&str, ConeTransform); 12] = [
 ];
 
 impl ConeTransform {
-    /// All of them.
+    /// Iterates over all transforms that have a name.
     pub fn all() -> impl Iterator<Item = ConeTransform> {
         NAMED.into_iter().map(|(_, transform)| transform)
     }

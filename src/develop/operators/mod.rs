@@ -1,4 +1,4 @@
-//! Tone mapping operators, one file each: functions from exposed linear sRGB to what the display shows.
+//! Tone mapping operators, one file each: functions from exposed linear sRGB to the linear sRGB that a display shows.
 
 mod exponential;
 mod reinhard;
@@ -6,14 +6,14 @@ mod srgb;
 
 use glam::DVec3;
 
-/// The operators.
+/// A tone mapping operator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tonemap {
-    /// None: linear up to 1, clipped above.
+    /// No operator: linear up to 1, clipped above.
     Srgb,
-    /// 1 − exp(−x) on each channel.
+    /// Maps each channel x to 1 − exp(−x).
     Exponential,
-    /// Y / (1 + Y) on luminance, colour kept \[Reinhard2002\].
+    /// Maps the luminance Y to Y / (1 + Y) and keeps the chromaticity \[Reinhard2002\].
     Reinhard,
 }
 
@@ -26,7 +26,7 @@ pub const TONEMAPS: &[(&str, Tonemap, &str)] = &[
 ];
 
 impl Tonemap {
-    /// Maps exposed linear sRGB, none of it negative.
+    /// Maps a colour in exposed linear sRGB without negative components.
     pub(super) fn apply(self, linear: DVec3) -> DVec3 {
         match self {
             Self::Srgb => srgb::apply(linear),

@@ -23,11 +23,11 @@ pub struct GlassEntry {
     pub range_nm: [f64; 2],
     /// Index at the d line, as another program computes it from the same data.
     pub n_d: f64,
-    /// Abbe number, likewise.
+    /// Abbe number V_d, as another program computes it from the same data.
     pub v_d: f64,
     /// Author and year, or the maker.
     pub source: &'static str,
-    /// What it is.
+    /// Description of the material.
     pub description: &'static str,
     yaml: &'static str,
 }
@@ -45,7 +45,7 @@ pub struct MetalEntry {
     pub range_nm: [f64; 2],
     /// Real part of the index at 550 nm, as another program computes it from the same data.
     pub n_550: f64,
-    /// Extinction coefficient at 550 nm, likewise.
+    /// Extinction coefficient at 550 nm, as another program computes it from the same data.
     pub k_550: f64,
     /// Author and year.
     pub source: &'static str,
@@ -55,14 +55,14 @@ pub struct MetalEntry {
 /// The complex index n + ik of a metal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Metal {
-    /// Real part.
+    /// Real part of the index, n.
     pub n: Table,
-    /// Extinction coefficient.
+    /// Extinction coefficient, k.
     pub k: Table,
 }
 
 impl GlassEntry {
-    /// Index, references and comments of the entry. The index is as published:
+    /// Reads index, references and comments of the entry. The index is as published:
     /// [`IndexOfRefraction::checked`] settles what happens outside its range.
     ///
     /// # Errors
@@ -73,7 +73,7 @@ impl GlassEntry {
 }
 
 impl MetalEntry {
-    /// Measured n and k of the entry.
+    /// Reads the measured n and k of the entry.
     ///
     /// # Errors
     /// None with the data as they come with abbe.
@@ -86,7 +86,7 @@ impl MetalEntry {
     }
 }
 
-/// All glasses in the order of the index.
+/// Lists all glasses in the order of the index.
 ///
 /// # Errors
 /// None with the data as they come with abbe.
@@ -97,7 +97,7 @@ pub fn glasses() -> Result<&'static [GlassEntry]> {
     ENTRIES.as_deref().map_err(Error::clone)
 }
 
-/// All metals in the order of the index.
+/// Lists all metals in the order of the index.
 ///
 /// # Errors
 /// None with the data as they come with abbe.
@@ -108,7 +108,7 @@ pub fn metals() -> Result<&'static [MetalEntry]> {
     ENTRIES.as_deref().map_err(Error::clone)
 }
 
-/// The glass of that name or alias; upper and lower case count as the same.
+/// Finds a glass by its name or an alias. Upper and lower case count as the same.
 ///
 /// # Errors
 /// `UnknownName` with the nearest name.
@@ -116,7 +116,7 @@ pub fn glass(name: &str) -> Result<&'static GlassEntry> {
     find(name, "glass", glasses()?, |entry| (entry.name, &entry.aliases))
 }
 
-/// The metal of that name or alias; upper and lower case count as the same.
+/// Finds a metal by its name or an alias. Upper and lower case count as the same.
 ///
 /// # Errors
 /// `UnknownName` with the nearest name.
@@ -124,7 +124,7 @@ pub fn metal(name: &str) -> Result<&'static MetalEntry> {
     find(name, "metal", metals()?, |entry| (entry.name, &entry.aliases))
 }
 
-/// Names of all glasses, without their aliases.
+/// Lists the names of all glasses, without their aliases.
 ///
 /// # Errors
 /// None with the data as they come with abbe.
@@ -132,7 +132,7 @@ pub fn glass_names() -> Result<impl Iterator<Item = &'static str>> {
     Ok(glasses()?.iter().map(|entry| entry.name))
 }
 
-/// Names of all metals, without their aliases.
+/// Lists the names of all metals, without their aliases.
 ///
 /// # Errors
 /// None with the data as they come with abbe.

@@ -1,21 +1,21 @@
-//! Which channels of a file are its picture.
+//! Finds the channels of a file that are its picture.
 
 use super::spectral;
 use crate::{Error, ErrorKind, Result};
 use exr::meta::header::Header;
 use std::collections::BTreeMap;
 
-/// Which channels to take where a file has several descriptions of the same picture.
+/// What to read where a file describes the same picture several times, by different channels.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Preference {
-    /// X, Y, Z; then the spectral layout; then R, G, B.
+    /// X, Y, Z if they are there, else the spectral layout, else R, G, B.
     #[default]
     Xyz,
-    /// R, G, B; then X, Y, Z; then the spectral layout.
+    /// R, G, B if they are there, else X, Y, Z, else the spectral layout.
     Rgb,
 }
 
-/// Channels, by their index in a part.
+/// The channels that a picture is made of, by their index in a part.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Colors {
     /// X, Y, Z.
@@ -24,9 +24,9 @@ pub enum Colors {
     Rgb([usize; 3]),
     /// Emissive spectral channels, by ascending wavelength.
     Spectral {
-        /// The channels.
+        /// Indices of the channels.
         indices: Vec<usize>,
-        /// Their wavelengths.
+        /// Wavelengths of the channels, in nm.
         lambdas_nm: Vec<f64>,
     },
 }
@@ -38,12 +38,12 @@ pub struct Candidate {
     pub part: usize,
     /// What stands before the channels' names: empty or `layer.`.
     pub prefix: String,
-    /// The channels.
+    /// Channels that the picture is made of.
     pub colors: Colors,
 }
 
 impl Candidate {
-    /// Its channels.
+    /// Iterates over the indices of the candidate's channels.
     pub fn indices(&self) -> impl Iterator<Item = usize> + '_ {
         let indices: &[usize] = match &self.colors {
             Colors::Xyz(indices) | Colors::Rgb(indices) => indices,
@@ -52,7 +52,7 @@ impl Candidate {
         indices.iter().copied()
     }
 
-    /// Lower is better.
+    /// Ranks the kind of channels by a preference; the lowest rank is read.
     fn rank(&self, preference: Preference) -> usize {
         match (&self.colors, preference) {
             (Colors::Xyz(_), Preference::Xyz) | (Colors::Rgb(_), Preference::Rgb) => 0,
@@ -62,7 +62,7 @@ impl Candidate {
     }
 }
 
-/// The one picture of a file, or of its layer of a name.
+/// Chooses the one picture of a file, or of the layer of it that is named.
 pub fn choose(parts: &[Header], preference: Preference, layer: Option<&str>) -> Result<Candidate> {
     let part_name = |part: usize| parts[part].own_attributes.layer_name.as_ref().map(|name| name.to_string());
     let mut all: Vec<Candidate> = (0..parts.len()).flat_map(|part| candidates(parts, part)).collect();
@@ -89,7 +89,7 @@ pub fn choose(parts: &[Header], preference: Preference, layer: Option<&str>) -> 
     all.into_iter().min_by_key(|c| c.rank(preference)).ok_or_else(|| nothing(parts, layer))
 }
 
-/// What one part could mean, those with the same prefix next to each other.
+/// Lists the pictures that one part could mean. Those with the same prefix are next to each other.
 fn candidates(parts: &[Header], part: usize) -> Vec<Candidate> {
     let names: Vec<String> = parts[part].channels.list.iter().map(|c| c.name.to_string()).collect();
     let mut found = Vec::new();

@@ -9,4 +9,4 @@ mod write;
 
 pub use channels::Preference;
 pub use read::{ReadPicture, Source, decode, read_file};
-pub use write::{Attributes, encode, encode_planes};
+pub use write::{Attributes, encode, encode_image};

@@ -1,4 +1,4 @@
-//! OpenEXR input: pictures of any renderer as XYZ.
+//! Reads OpenEXR pictures of any renderer as XYZ.
 //!
 //! Half, float and integer channels X, Y, Z; R, G, B with the file's chromaticities (Rec. 709 without them); or the spectral
 //! layout of \[Fichet2021\]. Scan lines or tiles, any compression, one part or several; no deep data. The picture is what
@@ -7,7 +7,7 @@
 use super::channels::{self, Candidate, Colors, Preference};
 use super::spectral;
 use crate::color::{RgbSpace, xyz_from_xy};
-use crate::{Error, ErrorKind, Result};
+use crate::{Error, ErrorKind, Image, Result};
 use exr::block::UncompressedBlock;
 use exr::block::reader::ChunksReader;
 use exr::meta::MetaData;
@@ -30,7 +30,7 @@ pub enum Source {
     },
     /// Spectral channels.
     Spectral {
-        /// How many.
+        /// Number of channels.
         bands: usize,
     },
 }
@@ -38,18 +38,16 @@ pub enum Source {
 /// A picture in XYZ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReadPicture {
-    /// Pixels a row.
-    pub width: u32,
-    /// X, Y, Z, row by row from the top left.
-    pub xyz: Vec<[f64; 3]>,
-    /// What they were read from.
+    /// The channels X, Y, Z.
+    pub xyz: Image,
+    /// Channels of the file from which X, Y and Z were computed.
     pub source: Source,
 }
 
-/// Most samples of all channels that are read.
+/// Largest number of samples in all channels of a file that is read.
 const MAX_SAMPLES: u128 = 1 << 31;
 
-/// Reads a file; see [`decode`].
+/// Reads a file as [`decode`] does.
 ///
 /// # Errors
 /// `FileNotFound`, and those of [`decode`], with the file.
@@ -89,7 +87,7 @@ pub fn decode(bytes: &[u8], preference: Preference, layer: Option<&str>) -> Resu
     for block in chunks.map_err(|e| not_exr(&e))?.sequential_decompressor(false) {
         window.add_block(&block.map_err(|e| not_exr(&e))?, &header.channels, &factors)?;
     }
-    Ok(ReadPicture { width: window.size.0 as u32, xyz: window.xyz, source })
+    Ok(ReadPicture { xyz: Image::xyz(window.size.0 as u32, window.xyz)?, source })
 }
 
 fn not_exr(error: &exr::error::Error) -> Error {
@@ -102,7 +100,7 @@ fn not_exr(error: &exr::error::Error) -> Error {
     Error::new(kind, message)
 }
 
-/// Looks at the headers before memory for the pixels is taken.
+/// Refuses deep data and pictures that are too large, before memory for the pixels is taken.
 fn check_size(meta: &MetaData) -> Result<()> {
     if meta.requirements.has_deep_data || meta.headers.iter().any(|header| header.deep) {
         let message = "deep data, samples at several depths a pixel; expected a flat picture";
@@ -118,7 +116,7 @@ fn check_size(meta: &MetaData) -> Result<()> {
     Ok(())
 }
 
-/// What each of a candidate's channels adds to X, Y and Z.
+/// Computes what each of a candidate's channels adds to X, Y and Z.
 fn to_xyz(candidate: &Candidate, chromaticities: Option<Chromaticities>) -> Result<(Vec<DVec3>, Source)> {
     Ok(match &candidate.colors {
         Colors::Xyz(_) => (vec![DVec3::X, DVec3::Y, DVec3::Z], Source::Xyz),
@@ -154,10 +152,10 @@ fn xyz_from_rgb(c: &Chromaticities) -> Result<DMat3> {
     Ok(DMat3::from_cols(directions.x_axis * amounts.x, directions.y_axis * amounts.y, directions.z_axis * amounts.z))
 }
 
-/// The display window, as it fills with the pixels of a part.
+/// The display window, which is filled block by block with the pixels of a part.
 struct Window {
     size: Vec2<usize>,
-    /// Of the data's first pixel, in the display window.
+    /// Position of the data's first pixel in the display window.
     offset: [i64; 2],
     xyz: Vec<[f64; 3]>,
 }
@@ -204,7 +202,7 @@ impl Window {
     }
 }
 
-/// One sample; blocks have the byte order of the machine.
+/// Decodes one sample of a block, which has the byte order of the machine.
 fn value(kind: SampleType, bytes: &[u8]) -> f64 {
     match (kind, bytes) {
         (SampleType::F16, &[a, b]) => f64::from(f16::from_ne_bytes([a, b])),

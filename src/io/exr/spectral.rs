@@ -9,8 +9,8 @@ use glam::DVec3;
 /// Speed of light in vacuum, nm·Hz \[SI2019\].
 const SPEED_OF_LIGHT_NM_HZ: f64 = 299_792_458e9;
 
-/// What stands before a channel's name and its wavelength in nm, if it is emissive light without regard to polarisation:
-/// `S0.550,000000nm` and the same with other units of length or frequency.
+/// Splits the name of a channel of emitted light of any polarisation, such as `left.S0.550,000000nm`, into what stands before
+/// `S0` and the wavelength in nm. The name may have another unit of length, or of frequency. Returns `None` for other channels.
 pub fn emissive_channel(name: &str) -> Option<(&str, f64)> {
     let start = if name.starts_with("S0.") { 0 } else { name.find(".S0.")? + 1 };
     let (prefix, quantity) = (&name[..start], &name[start + 3..]);
@@ -54,7 +54,7 @@ fn power_of_ten(multiple: &str) -> Option<f64> {
     })
 }
 
-/// What a radiance of 1 in each channel adds to X, Y and Z. The spectrum is linear between the channels' wavelengths and
+/// Computes what a radiance of 1 in each channel adds to X, Y and Z. The spectrum is linear between the channels' wavelengths and
 /// constant for half a step beyond the first and the last; a radiance of 1 at all wavelengths has Y = 1.
 pub fn weights(lambdas_nm: &[f64]) -> Result<Vec<DVec3>> {
     let n = lambdas_nm.len();

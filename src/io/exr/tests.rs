@@ -32,7 +32,7 @@ const RGB: [(&str, &[f32]); 3] = [("R", &[1.0, 0.0]), ("G", &[1.0, 0.0]), ("B", 
 
 fn xyz(bytes: &[u8]) -> (Vec<DVec3>, Source) {
     let picture = decode(bytes, Preference::Xyz, None).unwrap();
-    (picture.xyz.into_iter().map(DVec3::from).collect(), picture.source)
+    (picture.xyz.triples().iter().copied().map(DVec3::from).collect(), picture.source)
 }
 
 fn message(result: crate::Result<ReadPicture>) -> String {
@@ -103,7 +103,7 @@ fn windows() {
     let read = |display| {
         let bytes = bytes_of(&image(ImageAttributes::new(display), vec![layer.clone()]));
         let picture = decode(&bytes, Preference::Xyz, None).unwrap();
-        (picture.width, picture.xyz.iter().map(|p| p[1]).collect::<Vec<_>>())
+        (picture.xyz.size()[0], picture.xyz.plane(1).collect::<Vec<_>>())
     };
     // Cropped on the left, black below; then larger all round.
     assert_eq!(read(window(0, 5, 1, 2)), (1, vec![2.0, 0.0]));

@@ -1,5 +1,5 @@
-//! OpenEXR output: 32-bit float, scan lines, ZIP; channels R, G, B (linear sRGB) and X, Y, Z, the number of camera samples
-//! `samples`, and the standard error of each value `error.X`, `error.Y`, `error.Z`.
+//! Writes OpenEXR files of 32-bit floats with ZIP compression. Those of films have the channels R, G, B (linear sRGB) and
+//! X, Y, Z, the number of camera samples `samples`, and the standard error of each value `error.X`, `error.Y`, `error.Z`.
 
 use crate::color::RgbSpace;
 use crate::film::Film;
@@ -23,12 +23,11 @@ pub struct Attributes {
     pub observer: &'static str,
 }
 
-/// The channels of a picture.
+/// The channels of a film's file.
 const CHANNELS: [&str; 10] = ["R", "G", "B", "X", "Y", "Z", "samples", "error.X", "error.Y", "error.Z"];
 
-/// Encodes a picture. Also tells how many values did not fit into f32 and became its largest.
+/// Encodes a film. Also returns how many values did not fit into f32 and became its largest number.
 pub fn encode(film: &Film, attributes: &Attributes) -> Result<(Vec<u8>, usize)> {
-    let size = Vec2(film.width() as usize, film.height() as usize);
     let mut overflows = 0;
     let mut narrow = |v: f64| {
         let fits = v.abs() <= f64::from(f32::MAX);
@@ -36,48 +35,55 @@ pub fn encode(film: &Film, attributes: &Attributes) -> Result<(Vec<u8>, usize)> 
         if fits { v as f32 } else { f32::MAX.copysign(v as f32) }
     };
     let mut planes: [Vec<f32>; CHANNELS.len()] = Default::default();
-    for (pixel, xyz) in film.to_xyz().into_iter().enumerate() {
-        let rgb = (RgbSpace::srgb().rgb_from_xyz * DVec3::from(xyz)).to_array();
+    for (pixel, xyz) in film.to_image().triples().iter().enumerate() {
+        let rgb = (RgbSpace::srgb().rgb_from_xyz * DVec3::from(*xyz)).to_array();
         let samples = [film.camera().samples(pixel) as f64];
         let error = film.standard_error(pixel);
-        for (plane, value) in planes.iter_mut().zip(rgb.into_iter().chain(xyz).chain(samples).chain(error)) {
+        for (plane, value) in planes.iter_mut().zip(rgb.into_iter().chain(*xyz).chain(samples).chain(error)) {
             plane.push(narrow(value));
         }
     }
-    let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> =
-        CHANNELS.into_iter().zip(planes).map(|(name, plane)| AnyChannel::new(name, FlatSamples::F32(plane))).collect();
 
-    let mut layer = LayerAttributes { software_name: Some(Text::from(crate::VERSION)), ..Default::default() };
+    let mut layer = software();
     let mut other = |name: &str, value: AttributeValue| layer.other.insert(Text::from(name), value);
     other("sceneHash", AttributeValue::Text(Text::from(format!("{:016x}", attributes.scene_hash).as_str())));
     other("seed", AttributeValue::Text(Text::from(attributes.seed.to_string().as_str())));
     other("samplesPerPixel", AttributeValue::Text(Text::from(attributes.samples_per_pixel.to_string().as_str())));
     other("observer", AttributeValue::Text(Text::from(attributes.observer)));
     other("renderSeconds", AttributeValue::F64(attributes.seconds));
-    let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::FAST_LOSSLESS };
-    let layer = Layer::new(size, layer, encoding, AnyChannels::sort(channels));
 
-    let mut image = Image::from_layer(layer);
     let at = |[x, y]: [f64; 2]| Vec2(x as f32, y as f32);
     let [red, green, blue] = RgbSpace::srgb().primaries.map(at);
     let white = at(RgbSpace::srgb().white);
-    image.attributes.chromaticities = Some(attribute::Chromaticities { red, green, blue, white });
-    let mut bytes = Cursor::new(Vec::new());
-    image
-        .write()
-        .to_buffered(&mut bytes)
-        .map_err(|e| Error::new(ErrorKind::Io, format!("cannot encode the EXR: {e}")))?;
-    Ok((bytes.into_inner(), overflows))
+    let chromaticities = Some(attribute::Chromaticities { red, green, blue, white });
+    let size = [film.width(), film.height()];
+    Ok((bytes(size, CHANNELS.into_iter().zip(planes), layer, chromaticities)?, overflows))
 }
 
-/// Encodes named channels of numbers, each row by row.
-pub fn encode_planes(planes: Vec<(&str, Vec<f32>)>, width: u32) -> Result<Vec<u8>> {
-    let size = Vec2(width as usize, planes.first().map_or(0, |(_, plane)| plane.len() / width as usize));
+/// Encodes the channels of a picture under their names.
+pub fn encode_image(image: &crate::Image) -> Result<Vec<u8>> {
+    let plane = |c: usize| image.plane(c).map(|v| v as f32).collect();
+    let planes = image.channels().iter().enumerate().map(|(c, name)| (name.as_str(), plane(c)));
+    bytes(image.size(), planes, software(), None)
+}
+
+/// Returns the attributes that every file has.
+fn software() -> LayerAttributes {
+    LayerAttributes { software_name: Some(Text::from(crate::VERSION)), ..Default::default() }
+}
+
+fn bytes<'a>(
+    [width, height]: [u32; 2],
+    planes: impl Iterator<Item = (&'a str, Vec<f32>)>,
+    attributes: LayerAttributes,
+    chromaticities: Option<attribute::Chromaticities>,
+) -> Result<Vec<u8>> {
     let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> =
-        planes.into_iter().map(|(name, plane)| AnyChannel::new(name, FlatSamples::F32(plane))).collect();
-    let layer = LayerAttributes { software_name: Some(Text::from(crate::VERSION)), ..Default::default() };
+        planes.map(|(name, plane)| AnyChannel::new(name, FlatSamples::F32(plane))).collect();
     let encoding = Encoding { compression: Compression::ZIP16, ..Encoding::FAST_LOSSLESS };
-    let image = Image::from_layer(Layer::new(size, layer, encoding, AnyChannels::sort(channels)));
+    let size = Vec2(width as usize, height as usize);
+    let mut image = Image::from_layer(Layer::new(size, attributes, encoding, AnyChannels::sort(channels)));
+    image.attributes.chromaticities = chromaticities;
     let mut bytes = Cursor::new(Vec::new());
     image
         .write()

@@ -25,7 +25,7 @@ pub struct OpticalConstants {
     pub k: Option<Table>,
     /// Where the data come from, as plain text on one line; may be empty.
     pub references: String,
-    /// Remarks on the sample and the measurement, likewise.
+    /// Remarks on the sample and the measurement, as plain text on one line; may be empty.
     pub comments: String,
 }
 
@@ -93,7 +93,7 @@ fn set_once<T>(slot: &mut Option<T>, found: Option<T>, block: &Spanned<Block>, i
     Ok(())
 }
 
-/// The n and the k of a block.
+/// Reads n and k from a block of DATA, those of them that it has.
 fn read_block(block: &Spanned<Block>, i: usize) -> Result<(Option<IndexOfRefraction>, Option<Table>)> {
     let at = |key: &str| format!("DATA[{i}].{key}");
     let required = |value: &Option<Spanned<String>>, key: &str| {
@@ -134,7 +134,7 @@ fn read_block(block: &Spanned<Block>, i: usize) -> Result<(Option<IndexOfRefract
     }
 }
 
-/// Two wavelengths in µm, ascending or not.
+/// Parses a range: two wavelengths in µm, in either order.
 fn read_range_nm(range: &Spanned<String>) -> Result<[f64; 2]> {
     match read_numbers(&range.value)?[..] {
         [a, b] => Ok([nm_from_um(a.min(b)), nm_from_um(a.max(b))]),
@@ -157,7 +157,7 @@ fn read_number(word: &str) -> Result<f64> {
     }
 }
 
-/// A table of wavelengths (µm) and one or two more columns: one table for each of these.
+/// Parses a table of wavelengths (µm) and one or two more columns, and makes a table of each of these.
 fn read_table(data: &Spanned<String>, columns: usize, key: &str) -> Result<Vec<Table>> {
     let mut rows: Vec<[f64; 3]> = Vec::new();
     for (i, line) in data.value.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
@@ -172,7 +172,7 @@ fn read_table(data: &Spanned<String>, columns: usize, key: &str) -> Result<Vec<T
     tables.map_err(|e| e.at(place(line_of(data), key)))
 }
 
-/// The wavelength in nm and one or two values, the last one repeated.
+/// Parses a row: the wavelength, which becomes nm, and two values. A single value stands for both.
 fn read_row(line: &str, columns: usize) -> Result<[f64; 3]> {
     let numbers = read_numbers(line)?;
     if numbers.len() != columns + 1 {
@@ -196,7 +196,7 @@ fn nm_from_um(um: f64) -> f64 {
     um * 1e3
 }
 
-/// Text without HTML tags and line breaks.
+/// Removes HTML tags and line breaks from a text.
 fn plain_text(html: &str) -> String {
     let mut text = String::new();
     let mut rest = html;
@@ -220,7 +220,7 @@ fn plain_text(html: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The beginning of a text that stands where a short one was expected.
+/// Returns the beginning of a text, for messages about what stands where a short text was expected.
 fn shortened(text: &str) -> String {
     const LONGEST: usize = 40;
     if text.chars().count() <= LONGEST { text.to_owned() } else { text.chars().take(LONGEST).chain(['…']).collect() }
@@ -234,7 +234,7 @@ fn place(line: u64, key: &str) -> String {
     if line == 0 { key.to_owned() } else { format!("line {line}: {key}") }
 }
 
-/// The YAML reader's error as ours: its first line, and the line of the file.
+/// Turns an error of the YAML reader into one of this crate: the first line of its message, and the line of the file.
 fn from_yaml(error: &serde_saphyr::Error) -> Error {
     let text = error.to_string();
     let message = text.lines().next().unwrap_or_default().trim();

@@ -1,4 +1,4 @@
-//! What is doubtful about a spectrum as a colour: things that are refused, and things that are told.
+//! Finds what is doubtful about a spectrum that is to be a colour. Some of it is refused, the rest is told.
 
 use super::Quantity;
 use crate::spectrum::PiecewiseLinear;
@@ -7,19 +7,19 @@ use crate::{Error, ErrorKind, Result};
 /// The range in nm that a spectrum has to reach into: outside of it an observer sees less than 1 part in 10⁴ of white.
 pub const VISIBLE_NM: [f64; 2] = [380.0, 780.0];
 
-/// Reflectances above this look like percent; below it, up to here, like fluorescence or noise.
+/// Reflectances above this look like percentages; those between 1 and this look like fluorescence or noise.
 const PERCENT_FROM: f64 = 2.0;
 
 /// Something doubtful that still leaves a meaningful result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// Stable snake_case name.
+    /// Name in snake_case, which does not change between versions.
     pub name: &'static str,
-    /// One line: what was found, and what was done with it.
+    /// One line that says what was found and what was done with it.
     pub message: String,
 }
 
-/// What is doubtful about a spectrum whose values are of a given kind:
+/// Lists what is doubtful about a spectrum whose values are of a given kind:
 ///
 /// * `range_ends_inside_visible`: samples start above 380 nm or end below 780 nm;
 /// * `negative_values`;

@@ -18,7 +18,7 @@ use std::sync::LazyLock;
 pub const MAX_KNOTS: usize = 1_000_000;
 /// Largest file, bytes.
 pub const MAX_BYTES: u64 = 64 << 20;
-/// If the longest wavelength is below this many "nm" the file is in another unit: nothing here deals with X-rays.
+/// Shortest wavelength in nm that a file may end at. One that ends below is in another unit, since nobody means X-rays.
 const SHORTEST_LAST_NM: f64 = 100.0;
 
 /// A way to write spectra into files.
@@ -29,14 +29,14 @@ struct Format {
     parse: fn(&str) -> Result<SpectrumFile>,
 }
 
-/// The formats.
+/// All formats that can be read.
 const FORMATS: [&Format; 3] = [&rows::FORMAT, &pairs::FORMAT, &spdx::FORMAT];
 
 /// Extensions of files that are read, without the dot.
 pub static EXTENSIONS: LazyLock<Vec<&str>> =
     LazyLock::new(|| FORMATS.iter().flat_map(|format| format.extensions).copied().collect());
 
-/// What the values of a spectrum are.
+/// The quantity that the values of a spectrum are of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
     /// Light that is sent out, in whatever unit.
@@ -48,7 +48,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// What a column's name or the `SpectralQuantity` of TM-27 says, if it says anything.
+    /// Reads the quantity from a column's name or from the `SpectralQuantity` of TM-27, if it says one.
     fn from_word(word: &str) -> Option<Self> {
         match word.trim().to_lowercase().as_str() {
             "reflectance" | "reflectivity" | "reflection" => Some(Self::Reflectance),
@@ -74,7 +74,7 @@ pub struct NamedSpectrum {
 /// What a file holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpectrumFile {
-    /// At least one, in the file's order.
+    /// Spectra in the file's order, at least one.
     pub spectra: Vec<NamedSpectrum>,
     /// What the values are, if the file says so: by the names of its columns, or the `SpectralQuantity` of TM-27.
     pub quantity: Option<Quantity>,
@@ -134,7 +134,7 @@ fn format_of(path: &Path) -> Result<&'static Format> {
 }
 
 fn read_text(path: &Path) -> Result<String> {
-    // Asked before opening: opening a pipe would wait for its writer.
+    // The kind of file is asked before opening, for opening a pipe would wait for its writer.
     if !path.metadata().map_err(unreadable)?.is_file() {
         return Err(Error::new(ErrorKind::FileNotFound, "is not a file; expected a file with a spectrum"));
     }
@@ -168,7 +168,7 @@ fn parse(text: &str, format: &Format) -> Result<SpectrumFile> {
     (format.parse)(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
-/// The spectrum of a file that must have no more.
+/// Takes the spectrum of a file that must hold no other.
 fn single(file: SpectrumFile) -> Result<PiecewiseLinear> {
     let count = file.spectra.len();
     let mut spectra = file.spectra.into_iter();
@@ -210,7 +210,7 @@ impl Samples {
     }
 }
 
-/// Lines without comments, with their numbers counted from 1.
+/// Iterates over lines without their comments, each with its number counted from 1.
 fn content_lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     // "\r\n" is one line break, and so is a lone "\r".
     let lines = text.split('\n').enumerate().flat_map(|(i, line)| line.split('\r').map(move |part| (i + 1, part)));

@@ -1,4 +1,4 @@
-//! `.spd`: wavelength and value in turn, with white space between.
+//! Reads `.spd` files: wavelength and value in turn, with white space between.
 
 use super::{Format, NamedSpectrum, Samples, SpectrumFile, at_line, content_lines, number};
 use crate::{Error, ErrorKind, Result};

@@ -1,4 +1,4 @@
-//! `.csv` and its like: one wavelength a line, one spectrum a column.
+//! Reads `.csv` files and their like: one wavelength a line, one spectrum a column.
 
 use super::{Format, NamedSpectrum, Quantity, Samples, SpectrumFile, at_line, content_lines, number};
 use crate::spectrum::check_knot;
@@ -20,7 +20,7 @@ fn parse(text: &str) -> Result<SpectrumFile> {
     table.finish()
 }
 
-/// Whether a first line holds names: no field is a number, or the first one says what the first column is, or the others
+/// Decides whether a first line holds names: no field is a number, or the first one says what the first column is, or the others
 /// are wavelengths (which is then refused).
 fn is_header(fields: &[String]) -> bool {
     let is_name = |field: &String| field.parse::<f64>().is_err();
@@ -29,7 +29,7 @@ fn is_header(fields: &[String]) -> bool {
     fields.iter().all(is_name) || (is_name(&first) && (says_wavelength || are_wavelengths(&fields[1..])))
 }
 
-/// Whether names are wavelengths, so that lines and columns have changed places.
+/// Decides whether names are wavelengths, so that lines and columns have changed places.
 fn are_wavelengths(names: &[String]) -> bool {
     let numbers: Option<Vec<f64>> = names.iter().map(|name| name.parse().ok()).collect();
     numbers.is_some_and(|n| n.len() > 2 && n[0] >= 100.0 && n.windows(2).all(|pair| pair[0] < pair[1]))
@@ -75,7 +75,7 @@ impl Table {
         Ok(())
     }
 
-    /// The name of a column, or its number counted from 1 with that of the wavelengths.
+    /// Returns the name of a column, or its number, where the column of wavelengths is number 1.
     fn name(&self, index: usize) -> String {
         let given = self.header.as_ref().map(|names| names[index + 1].as_str()).filter(|name| !name.is_empty());
         given.map_or_else(|| format!("column {}", index + 2), str::to_owned)
@@ -113,7 +113,7 @@ fn transposed() -> Error {
     Error::new(ErrorKind::FileFormat, message)
 }
 
-/// The fields of a row. A semicolon or tab separates before a comma, so that a decimal comma is not taken for one.
+/// Splits a row into fields. A semicolon or tab separates before a comma, so that a decimal comma is not taken for one.
 fn fields(line: &str) -> Vec<String> {
     let separator = [';', '\t', ','].into_iter().find(|&separator| split(line, |c| c == separator).len() > 1);
     let parts = match separator {
@@ -123,7 +123,7 @@ fn fields(line: &str) -> Vec<String> {
     parts.into_iter().map(|part| unquoted(part.trim())).collect()
 }
 
-/// The parts of a line between separators that are not inside double quotes.
+/// Splits a line at the separators that are not inside double quotes.
 fn split(line: &str, is_separator: impl Fn(char) -> bool) -> Vec<&str> {
     let mut inside = false;
     let outside = |c: char| {
@@ -133,7 +133,7 @@ fn split(line: &str, is_separator: impl Fn(char) -> bool) -> Vec<&str> {
     line.split(outside).collect()
 }
 
-/// The text inside double quotes, where two of them stand for one.
+/// Removes double quotes around a text, inside which two of them stand for one.
 fn unquoted(field: &str) -> String {
     match field.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
         Some(inner) => inner.replace("\"\"", "\"").trim().to_owned(),

@@ -1,4 +1,4 @@
-//! IES TM-27 `.spdx`, which is XML \[TM27\].
+//! Reads IES TM-27 `.spdx` files, which are XML \[TM27\].
 
 use super::{Format, NamedSpectrum, Quantity, Samples, SpectrumFile, at_line, number};
 use crate::spectrum::PiecewiseLinear;
@@ -26,7 +26,7 @@ fn parse(text: &str) -> Result<SpectrumFile> {
     Ok(SpectrumFile { spectra: spectra.collect::<Result<_>>()?, quantity })
 }
 
-/// The trimmed text of the first element of a name, if it has any.
+/// Returns the trimmed text of the first element of a name, if it has any.
 fn text_of<'a>(root: Node<'a, '_>, element: &str) -> Option<&'a str> {
     let node = root.descendants().find(|node| node.tag_name().name() == element)?;
     node.text().map(str::trim).filter(|text| !text.is_empty())
