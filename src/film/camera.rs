@@ -100,12 +100,12 @@ impl CameraPart {
         (self.open_samples, self.open_weight) = (samples, weight);
     }
 
-    /// Camera samples taken in all.
+    /// Counts all camera samples taken.
     pub fn paths(&self) -> u64 {
         self.beyond + self.counts.iter().sum::<u64>()
     }
 
-    /// Camera samples in the square of a pixel.
+    /// Returns the number of camera samples in the square of a pixel.
     pub fn samples(&self, pixel: usize) -> u64 {
         self.counts[pixel]
     }

@@ -34,27 +34,28 @@ pub struct ErrorParts {
     pub camera: PartError,
     /// Noise of light paths: their errors span pixels, so that only replicates of the whole picture are independent.
     pub light: PartError,
-    /// Noise of merging, likewise.
+    /// Noise of merging, whose errors span pixels as well.
     pub merged: PartError,
     /// Blur of merging.
     pub blur: PartError,
 }
 
 impl ErrorParts {
-    /// All of them.
+    /// Lists the errors of all parts.
     pub fn all(&self) -> [PartError; 4] {
         [self.camera, self.light, self.merged, self.blur]
     }
 }
 
 impl Film {
-    /// Estimate of the relative mean square error. The camera part's comes from two half films, that of the others from
+    /// Estimates the relative mean square error. The camera part's comes from two half films, that of the others from
     /// eight replicates; the blur of merging is not in it. `None` while a part has samples in fewer than two replicates.
     pub fn estimated_relative_mse(&self) -> Option<f64> {
         self.relative_variances(f64::INFINITY).map(|v| v.camera + v.light + v.merged)
     }
 
-    /// The same by parts. What a part adds in a channel of a pixel counts as at most `largest`.
+    /// Estimates the relative mean square error part by part. What a part adds in a channel of a pixel counts as at most
+    /// `largest`.
     pub fn relative_variances(&self, largest: f64) -> Option<Parts> {
         let (light, merged) = self.replicated()?;
         let scales = self.relative_scales();
@@ -71,7 +72,7 @@ impl Film {
         Some(parts)
     }
 
-    /// What is known of the error, part by part. `decay` is the exponent with which the blur of merging falls with the
+    /// Tells what is known of the error, part by part. `decay` is the exponent with which the blur of merging falls with the
     /// number of passes; it is told once merging has been marked, see [`Film::mark_merged`]. `None` while a part has
     /// samples in fewer than two replicates, or there is merging without a mark.
     pub fn error_parts(&self, decay: f64) -> Option<ErrorParts> {
@@ -102,7 +103,7 @@ impl Film {
         })
     }
 
-    /// Standard error of the value of a pixel: from few replicates, so only means over pixels are worth much. The blur of
+    /// Returns the standard error of the value of a pixel: from few replicates, so only means over pixels are worth much. The blur of
     /// merging is not in it.
     pub fn standard_error(&self, pixel: usize) -> Xyz {
         let camera = self.camera.variance(pixel);
@@ -115,24 +116,25 @@ impl Film {
         })
     }
 
-    /// Variance of the camera part of each pixel relative to its brightness: the sum over channels.
+    /// Returns the variance of the camera part of each pixel relative to its brightness: the sum over channels.
     pub fn relative_camera_variances(&self) -> Vec<f64> {
         let scales = self.relative_scales().into_iter().enumerate();
         let sum = |scale: Xyz, variance: Xyz| (0..3).map(|c| scale[c] * variance[c]).sum();
         scales.map(|(pixel, scale)| sum(scale, self.camera.variance(pixel))).collect()
     }
 
-    /// The replicates of light paths and of merging that have samples; `None` if an error cannot be told from them.
+    /// Returns the replicates of light paths and of merging that have samples; `None` if an error cannot be told from them.
     fn replicated(&self) -> Option<(Vec<usize>, Vec<usize>)> {
         let (light, merged) = (self.light.used(), self.merged.used());
         (light.len() != 1 && merged.len() != 1 && self.camera.replicated()).then_some((light, merged))
     }
 
-    /// Factors from squares of film sums to relative ones. A pixel's own value is no measure of its brightness where its
+    /// Returns the factors from squares of film sums to relative ones. A pixel's own value is no measure of its brightness where its
     /// error is large: what stands out by chance would make its error look small. The geometric mean of it and of what
     /// both replicates of camera samples have found comes close, on average, to what the true brightness gives.
     fn relative_scales(&self) -> Vec<Xyz> {
-        let image = self.to_xyz();
+        let image = self.to_image();
+        let image = image.triples();
         let mean = image.iter().flatten().sum::<f64>() / (3 * image.len()) as f64;
         let of_pixel = |(pixel, xyz): (usize, &Xyz)| {
             let of_camera: Xyz = self.camera.mean(pixel, 0);
@@ -148,7 +150,7 @@ impl Film {
 }
 
 impl Replicates {
-    /// Noise of the mean over replicates.
+    /// Estimates the noise of the mean over replicates.
     fn noise(&self, used: &[usize], scales: &[Xyz]) -> PartError {
         let n = used.len() as f64;
         if used.len() < 2 {
@@ -166,7 +168,7 @@ impl Replicates {
         PartError::of(&used.iter().map(of_replicate).collect::<Vec<_>>(), 1.0 + 1.0 / n)
     }
 
-    /// Blur of the mean over passes, which falls with the number of passes to the power of −`decay`: so it follows from
+    /// Estimates the blur of the mean over passes, which falls with the number of passes to the power of −`decay`: so it follows from
     /// the change since there were fewer. The noise of that change is kept out of its square by multiplying the changes of
     /// different replicates. `None` if not all replicates have gone on.
     fn blur(&self, before: &Self, decay: f64, scales: &[Xyz]) -> Option<PartError> {
@@ -197,7 +199,7 @@ impl Replicates {
 }
 
 impl PartError {
-    /// Of independent values of the same expectation; `variances` is the variance of the deviation in units of theirs.
+    /// Makes the error of independent values that have the same expectation; `variances` is the variance of the deviation in units of theirs.
     fn of(values: &[f64], variances: f64) -> Self {
         let n = values.len() as f64;
         let mean = values.iter().sum::<f64>() / n;

@@ -167,12 +167,11 @@ impl Film {
 
     /// Makes a picture of X, Y and Z. Further channels of the sensor are not in it.
     pub fn to_image(&self) -> Image {
-        Image::new([self.width, self.height], &["X", "Y", "Z"], self.to_xyz().into_flattened())
-    }
-
-    /// Returns XYZ of all pixels, row by row.
-    fn to_xyz(&self) -> Vec<Xyz> {
-        (0..self.pixels()).map(|i| self.xyz(i)).collect()
+        Image::new(
+            [self.width, self.height],
+            &["X", "Y", "Z"],
+            (0..self.pixels()).flat_map(|pixel| self.xyz(pixel)).collect(),
+        )
     }
 }
 

@@ -14,7 +14,7 @@ pub struct Replicates {
 }
 
 impl Replicates {
-    /// Nothing yet, in so many channels.
+    /// Makes room for sums in so many channels.
     pub fn new(channels: usize) -> Self {
         Self { channels, sums: Default::default(), counts: Default::default() }
     }
@@ -41,17 +41,17 @@ impl Replicates {
         lost
     }
 
-    /// Sum of one replicate in a channel of a pixel.
+    /// Returns the sum of one replicate in a channel of a pixel.
     pub fn sum(&self, replicate: usize, pixel: usize, channel: usize) -> f64 {
         self.sums[replicate][pixel * self.channels + channel]
     }
 
-    /// Replicates that have samples.
+    /// Lists the replicates that have samples.
     pub fn used(&self) -> Vec<usize> {
         (0..LIGHT_REPLICATES).filter(|&r| self.counts[r] > 0.0).collect()
     }
 
-    /// Mean over all that has been counted, in a channel of a pixel; 0 if nothing has been.
+    /// Returns the mean over all that has been counted, in a channel of a pixel; 0 if nothing has been.
     pub fn mean(&self, pixel: usize, channel: usize) -> f64 {
         let count: f64 = self.counts.iter().sum();
         if count == 0.0 {
@@ -61,7 +61,7 @@ impl Replicates {
         sum / count
     }
 
-    /// Variance of the mean in one channel of a pixel.
+    /// Returns the variance of the mean in one channel of a pixel.
     pub fn variance(&self, pixel: usize, channel: usize, used: &[usize]) -> f64 {
         let n = used.len() as f64;
         if used.is_empty() {

@@ -37,7 +37,7 @@ pub struct CameraTile {
 }
 
 impl CameraTile {
-    /// For samples of so many channels in the squares of `size` pixels from `corner` on, and a filter that reaches so far
+    /// Makes room for samples of so many channels in the squares of `size` pixels from `corner` on, and a filter that reaches so far
     /// beyond.
     pub fn new(corner: [i32; 2], size: [u32; 2], reach: u32, channels: usize) -> Self {
         let size = size.map(|size| size + 2 * reach);

@@ -33,13 +33,13 @@ impl TimedRays {
         result
     }
 
-    /// Adds another thread's.
+    /// Adds the times of another thread.
     pub fn add(&mut self, other: Self) {
         self.rays += other.rays;
         self.total += other.total;
     }
 
-    /// Mean time of a ray without the look at the clock, seconds; 0 if none was timed.
+    /// Returns the mean time of a ray without the look at the clock, seconds; 0 if none was timed.
     pub fn seconds_per_ray(&self) -> f64 {
         if self.rays == 0 {
             return 0.0;

@@ -18,7 +18,7 @@ pub struct Guide {
 }
 
 impl Guide {
-    /// Lights by a table, and nothing learnt.
+    /// Makes a guide that draws lights by a table and starts paths from them evenly.
     pub fn plain(lights: AliasTable, scene: &Scene) -> Self {
         Self { lights, grids: vec![None; scene.lights.len()] }
     }
@@ -28,12 +28,12 @@ impl Guide {
         self.lights.sample(u)
     }
 
-    /// Probability of a light.
+    /// Returns the probability of a light.
     pub fn probability(&self, LightId(light): LightId) -> f32 {
         self.lights.probability(light as usize)
     }
 
-    /// Moves the guided one of two pairs of random numbers; the density by which to divide.
+    /// Moves the guided one of two pairs of random numbers. Returns the density by which to divide.
     pub fn warp(&self, LightId(light): LightId, pair: Option<GuidedPair>, u: &mut [f32; 2], v: &mut [f32; 2]) -> f32 {
         let (Some(grid), Some(pair)) = (&self.grids[light as usize], pair) else { return 1.0 };
         let numbers = match pair {
@@ -44,7 +44,7 @@ impl Guide {
         grid.density(*numbers)
     }
 
-    /// Density relative to that of an unguided path, for light that leaves in this way.
+    /// Returns the density of light that leaves in this way, relative to that of an unguided path.
     pub fn density(&self, LightId(index): LightId, light: &Light, exit: &Exit, aim: &Aim) -> f32 {
         let Some(grid) = &self.grids[index as usize] else { return 1.0 };
         light.guided_numbers(exit, aim).map_or(1.0, |numbers| grid.density(numbers))
@@ -59,7 +59,7 @@ pub struct Experience {
 }
 
 impl Experience {
-    /// Of nothing.
+    /// Makes an empty record.
     pub fn new(scene: &Scene) -> Self {
         Self { lights: vec![vec![[0.0; 2]; SIDE * SIDE]; scene.lights.len()] }
     }
@@ -72,7 +72,7 @@ impl Experience {
         cell[1] += square;
     }
 
-    /// The best densities for what was seen, mixed with a defensive share: variance is least with densities in proportion
+    /// Makes the best guide for what was seen, mixed with a defensive share: variance is least with densities in proportion
     /// to root mean squares.
     pub fn guide(&self, plain: &Guide, scene: &Scene) -> Guide {
         let mut grids = Vec::new();
