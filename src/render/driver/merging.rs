@@ -7,7 +7,7 @@ use crate::bsdf::{Branching, Indices, Parting};
 use crate::film::{Film, LIGHT_REPLICATES, Splats};
 use crate::render::paths::{Counters, Place, Vertex, Walk, Workspace};
 use crate::render::techniques::{
-    LightTracer, Merging, Photon, PhotonCollector, PhotonMap, follow_specular, radiance_ratio,
+    CameraNumbers, LightTracer, Merging, Photon, PhotonCollector, PhotonMap, follow_specular, radiance_ratio,
 };
 use crate::sampling::mix;
 use crate::spectrum::{SampledSpectrum, Wavelengths};
@@ -195,9 +195,9 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
     ) {
         let sobol = Stream::Eye { pixel }.sequence(render_seed(self.settings.seed));
         let place = Place { sobol, index: pass };
-        let u = sobol.group(pass, 0);
-        let (at, offset) = (self.column_and_row(pixel), self.offset_by_filter(u));
-        let start = CameraStart { pixel: at, offset, wavelengths, u };
+        let numbers = CameraNumbers::of(place);
+        let (at, offset) = (self.column_and_row(pixel), self.offset_by_filter(numbers.film));
+        let start = CameraStart { pixel: at, offset, wavelengths, numbers };
         let mut walk = self.camera_walk(workspace, start, self.plan.camera, place);
         let camera_indices = if INTERIORS { Some(walk.medium_indices()) } else { None };
         let (techniques, max_depth) = (&self.plan.techniques, self.settings.max_depth);

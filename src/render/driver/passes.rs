@@ -8,10 +8,9 @@ use super::streams::{Stream, render_seed};
 use crate::bsdf::{Branching, Carried, Parting};
 use crate::film::{CAMERA_REPLICATES, CameraTile, Film, LIGHT_REPLICATES, SamplePlace, Splats};
 use crate::render::paths::{Counters, Place, TransportMode, Walk, Workspace};
-use crate::render::techniques::{LightTracer, Splatter, Techniques, baseline, radiance};
-use crate::sampling::DIMENSIONS;
+use crate::render::techniques::{CameraNumbers, LightTracer, Splatter, Techniques, baseline, radiance};
 use crate::scene::FilmSettings;
-use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
+use crate::spectrum::{SampledSpectrum, Wavelengths};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -117,8 +116,8 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
     }
 
     /// An offset from the corner of a pixel, drawn from its filter.
-    pub fn offset_by_filter(&self, u: [f32; DIMENSIONS]) -> [f32; 2] {
-        self.film.filter.sample([u[0], u[1]]).map(|d| 0.5 + d)
+    pub fn offset_by_filter(&self, u: [f32; 2]) -> [f32; 2] {
+        self.film.filter.sample(u).map(|d| 0.5 + d)
     }
 
     /// One camera path of the sequences of a seed, in the square of a pixel of the film or just beyond.
@@ -134,11 +133,15 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
         let index = sample / CAMERA_REPLICATES as u64;
         let stream = Stream::Camera { square: self.square(pixel), replicate: replicate as u8 };
         let place = Place { sobol: stream.sequence(seed), index };
-        let u = place.sobol.group(index, 0);
+        let numbers = CameraNumbers::of(place);
         let baseline = branching.parting == Parting::Terminate;
-        let wavelengths = if baseline { baseline::wavelengths(u[2]) } else { self.scene.wavelengths.sample(u[2]) };
-        let offset = if baseline { self.offset_by_filter(u) } else { [u[0], u[1]] };
-        let start = CameraStart { pixel, offset, wavelengths, u };
+        let wavelengths = if baseline {
+            baseline::wavelengths(numbers.wavelengths)
+        } else {
+            self.scene.wavelengths.sample(numbers.wavelengths)
+        };
+        let offset = if baseline { self.offset_by_filter(numbers.film) } else { numbers.film };
+        let start = CameraStart { pixel, offset, wavelengths, numbers };
         let mut walk = self.camera_walk(workspace, start, branching, place);
         if baseline {
             (walk.carried.hero, walk.carried.throughput) = (0, baseline::throughput());
@@ -158,15 +161,14 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
     pub fn camera_walk<'w>(
         &self,
         workspace: &'w mut Workspace,
-        CameraStart { pixel: [x, y], offset, wavelengths, u }: CameraStart,
+        CameraStart { pixel: [x, y], offset, wavelengths, numbers }: CameraStart,
         branching: Branching,
         place: Place,
     ) -> Walk<'w>
     where
         'a: 'w,
     {
-        let ray = self.scene.camera.ray([x as f32 + offset[0], y as f32 + offset[1]], [u[3], u[4]]);
-        let hero = (u[5] * LANES as f32) as usize;
+        let ray = self.scene.camera.ray([x as f32 + offset[0], y as f32 + offset[1]], numbers.lens);
         workspace.spectra.begin(wavelengths);
         if INTERIORS {
             match &self.camera_interiors {
@@ -174,7 +176,7 @@ impl<'a, const INTERIORS: bool> Renderer<'a, INTERIORS> {
                 None => workspace.interiors.reset(&self.scene.interiors_at(ray.origin)),
             }
         }
-        let carried = Carried::new(hero, branching);
+        let carried = Carried::new(numbers.hero, branching);
         Walk::start(self.scene, workspace, ray, TransportMode::Radiance, carried, place)
     }
 
@@ -230,8 +232,8 @@ pub struct CameraStart {
     pub offset: [f32; 2],
     /// Its wavelengths.
     pub wavelengths: Wavelengths,
-    /// The first group of its random numbers.
-    pub u: [f32; DIMENSIONS],
+    /// The random numbers of its start.
+    pub numbers: CameraNumbers,
 }
 
 /// What a camera path has found.
@@ -239,9 +241,9 @@ pub struct CameraSample {
     /// Where, from the corner of its pixel; `None` where it counts in that pixel alone.
     offset: Option<[f32; 2]>,
     replicate: usize,
-    /// Its wavelengths,
+    /// The wavelengths of its lanes.
     pub wavelengths: Wavelengths,
-    /// and the radiance at them.
+    /// The radiance that it has found at each of them.
     pub radiance: SampledSpectrum,
 }
 

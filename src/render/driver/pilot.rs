@@ -144,6 +144,9 @@ impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
                             let branching = Branching { parting: Parting::Ways(ways), ..self.plan.camera };
                             let (seed, at) = (pilot_seed(self.settings.seed), self.column_and_row(pixel));
                             let found = self.camera_sample(workspace, at, sample as u64, seed, branching);
+                            if found.radiance.is_zero() {
+                                return Xyz::default();
+                            }
                             self.film.sensor.weights(&found.wavelengths, &mut weights);
                             let xyz: Xyz = std::array::from_fn(|c| value(weights[c], found.radiance));
                             if xyz.iter().all(|v| v.is_finite()) { xyz } else { Xyz::default() }

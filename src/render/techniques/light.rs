@@ -2,6 +2,7 @@
 
 use super::camera::{camera_density, rough_camera_density};
 use super::guide::Guide;
+use super::start_numbers::LightNumbers;
 use super::table::{LightPathDensity, Techniques};
 use crate::bsdf::{Branching, Carried};
 use crate::film::{Filter, Sensor, Splats, value};
@@ -9,7 +10,7 @@ use crate::geometry::Ray;
 use crate::render::paths::{Encounter, Place, Scattering, TransportMode, Vertex, Walk, Workspace, adjoint};
 use crate::sampling::{Draw, balance_heuristic};
 use crate::scene::{Emission, GuidedPair, Scene, Surface};
-use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
+use crate::spectrum::{SampledSpectrum, Wavelengths};
 use glam::Vec3;
 
 /// How light paths are traced.
@@ -19,7 +20,7 @@ pub struct LightTracer<'a> {
     pub scene: &'a Scene,
     /// Where they start.
     pub guide: &'a Guide,
-    /// Whether they are aimed at what can focus light and followed for what they own, see [`super::techniques`], or cover
+    /// Whether they are aimed at what can focus light and followed for what they own, see [`super::table`], or cover
     /// everything.
     pub caustics_only: bool,
     /// Where paths branch.
@@ -89,21 +90,23 @@ impl LightTracer<'_> {
         wavelengths: Option<Wavelengths>,
         collector: &mut impl Collector,
     ) {
-        // Point, wavelengths and direction first: that is where the picture of a caustic comes from.
+        // The light and the wavelengths.
         let scene = self.scene;
-        let u = place.sobol.group(place.index, 0);
-        let Some(Draw { index: light_index, probability, .. }) = self.guide.sample_light(u[5]) else { return };
+        let numbers = LightNumbers::of(place);
+        let Some(Draw { index: light_index, probability, .. }) = self.guide.sample_light(numbers.light) else { return };
         let light = &scene.lights[light_index];
-        let wavelengths = wavelengths.unwrap_or_else(|| light.wavelengths.sample(u[2]));
+        let wavelengths = wavelengths.unwrap_or_else(|| light.wavelengths.sample(numbers.wavelengths));
+
+        // The point and the direction in which the path leaves the light.
         let aim = if self.caustics_only { scene.caustic_aim } else { None }.unwrap_or(scene.everything());
-        let (mut point, mut direction) = ([u[0], u[1]], [u[3], u[4]]);
+        let LightNumbers { mut point, mut direction, .. } = numbers;
         let pair = light.guided_pair();
         let density = self.guide.warp(light_index, pair, &mut point, &mut direction);
         let Some(mut emission) = light.emit(scene, &aim, point, direction) else { return };
         emission.weight /= density;
-        workspace.spectra.begin(wavelengths);
-        let hero = (u[6] * LANES as f32) as usize;
 
+        // What the path carries from there.
+        workspace.spectra.begin(wavelengths);
         let origin = emission.start.origin(emission.direction);
         let inside = if INTERIORS && light.may_be_inside { scene.interiors_at(origin) } else { Vec::new() };
         workspace.interiors.reset(&inside);
@@ -117,7 +120,7 @@ impl LightTracer<'_> {
             emission,
         };
         let ray = Ray { origin, direction: emission.direction };
-        let carried = Carried::new(hero, self.branching);
+        let carried = Carried::new(numbers.hero, self.branching);
         let mut walk = Walk::start(scene, workspace, ray, TransportMode::Importance, carried, place);
         collector.leave::<INTERIORS>(&mut walk, &start);
         self.follow::<INTERIORS>(&mut walk, &start, First::Nothing, collector);
@@ -181,7 +184,7 @@ impl LightTracer<'_> {
         }
     }
 
-    /// Whether light paths find what arrives, by the table of [`super::techniques`].
+    /// Whether light paths find what arrives, by the table of [`super::table`].
     fn owns(&self, start: &Start, arrival: &Arrival) -> bool {
         let local = self.scene.lights[start.light as usize].is_local();
         !self.caustics_only
