@@ -49,7 +49,7 @@ pub struct Decisions {
 }
 
 impl Plan {
-    /// What follows from the scene alone.
+    /// Makes the plan that follows from the scene alone.
     pub fn of_scene(scene: &Scene, integrator: Integrator) -> Self {
         let ways = |ways| Parting::Ways(if scene.features.dispersion { ways } else { 1 });
         let techniques = match integrator {
@@ -72,7 +72,15 @@ impl Plan {
         }
     }
 
-    /// In numbers.
+    /// Sets how photons are merged, if they are, and tells the techniques.
+    pub fn set_merging(&mut self, merging: Option<Merging>) {
+        if let Techniques::CameraAndLight { merging: merges, .. } = &mut self.techniques {
+            *merges = merging.is_some();
+        }
+        self.merging = merging;
+    }
+
+    /// Returns the decisions in numbers.
     pub fn decisions(&self, pilot_rays: u64, allocation: Allocation) -> Decisions {
         let ways = |parting| if let Parting::Ways(ways) = parting { u32::from(ways) } else { 1 };
         Decisions {
