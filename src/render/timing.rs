@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 /// Times of single rays: looking at the clock costs as much as a short ray, so only a few are timed.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TimedRays {
-    /// Rays timed.
+    /// Number of rays timed.
     pub rays: u64,
-    /// What they took, with the look at the clock.
+    /// Time that they took, looks at the clock included.
     pub total: Duration,
 }
 
@@ -33,7 +33,7 @@ impl TimedRays {
         result
     }
 
-    /// Adds another thread's.
+    /// Adds the rays that another thread has timed.
     pub fn add(&mut self, other: Self) {
         self.rays += other.rays;
         self.total += other.total;

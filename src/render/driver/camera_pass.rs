@@ -29,7 +29,7 @@ struct Square {
     /// Its index, if it is one of the film's.
     pixel: Option<usize>,
     samples: u64,
-    /// What the samples have cost.
+    /// Rays traced for the samples.
     rays: u64,
 }
 
@@ -60,7 +60,7 @@ pub fn camera_pass<const INTERIORS: bool>(
     counters
 }
 
-/// One round in a tile.
+/// Takes the samples of one round in a tile.
 fn camera_tile<const INTERIORS: bool>(
     job: &Job<INTERIORS>,
     workspace: &mut Workspace,

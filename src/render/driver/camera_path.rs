@@ -14,9 +14,9 @@ use crate::spectrum::{SampledSpectrum, Wavelengths};
 pub struct CameraStart {
     /// Column and row of its pixel.
     pub pixel: [i32; 2],
-    /// Where, from the corner of the pixel.
+    /// Offset of its point on the film from the corner of the pixel.
     pub offset: [f32; 2],
-    /// Its wavelengths.
+    /// The wavelengths of its lanes.
     pub wavelengths: Wavelengths,
     /// The random numbers of its start.
     pub numbers: CameraNumbers,
@@ -24,7 +24,7 @@ pub struct CameraStart {
 
 /// What a camera path has found.
 pub struct CameraSample {
-    /// Where, from the corner of its pixel; `None` where it counts in that pixel alone.
+    /// Offset of its point on the film from the corner of its pixel; `None` if it counts in that pixel alone.
     pub offset: Option<[f32; 2]>,
     /// Number of its replicate.
     pub replicate: usize,
@@ -34,7 +34,7 @@ pub struct CameraSample {
     pub radiance: SampledSpectrum,
 }
 
-/// One camera path of the sequences of a seed, in the square of a pixel of the film or just beyond.
+/// Traces one camera path of the sequences of a seed, in the square of a pixel of the film or just beyond.
 pub fn camera_sample<const INTERIORS: bool>(
     job: &Job<INTERIORS>,
     workspace: &mut Workspace,
@@ -64,13 +64,12 @@ pub fn camera_sample<const INTERIORS: bool>(
     CameraSample { offset: (!baseline).then_some(offset), replicate, wavelengths, radiance }
 }
 
-/// An offset from the corner of a pixel, drawn from its filter.
+/// Draws an offset from the corner of a pixel by the filter.
 pub fn offset_by_filter(film: &FilmSettings, u: [f32; 2]) -> [f32; 2] {
     film.filter.sample(u).map(|d| 0.5 + d)
 }
 
-/// The start of a camera path at an offset from the corner of a pixel. Pixel, wavelengths and lens share the first group of
-/// random numbers.
+/// Starts a camera path.
 pub fn camera_walk<'a: 'w, 'w, const INTERIORS: bool>(
     job: &Job<'a, INTERIORS>,
     workspace: &'w mut Workspace,

@@ -33,7 +33,7 @@ pub fn light_pass<const INTERIORS: bool>(
     counters
 }
 
-/// Light paths of one block: replicates have blocks in turns, each with a sequence of its own.
+/// Traces the light paths of one block: replicates have blocks in turns, each with a sequence of its own.
 fn light_block<const INTERIORS: bool>(
     job: &Job<INTERIORS>,
     workspace: &mut Workspace,
@@ -52,7 +52,7 @@ fn light_block<const INTERIORS: bool>(
     (splatter.splats, workspace.counters)
 }
 
-/// How light paths are traced, by the plan.
+/// Makes the tracer of light paths that the plan asks for.
 pub fn light_tracer<'j, const INTERIORS: bool>(job: &'j Job<INTERIORS>) -> LightTracer<'j> {
     let techniques = &job.plan.techniques;
     LightTracer {

@@ -30,7 +30,7 @@ const BLOCK: u64 = 1024;
 /// What a pass of merging has found in a tile.
 struct MergedTile {
     splats: Splats,
-    /// The pixels looked at, and whether there was something to merge on.
+    /// Each pixel that was looked at, with whether there was a surface to merge on.
     looked_at: Vec<(u32, bool)>,
     counters: Counters,
 }
@@ -41,14 +41,15 @@ impl MergedTile {
     }
 }
 
-/// What passes have found out so far.
+/// What the passes of merging have learnt so far.
 #[derive(Debug, Default)]
 pub struct MergeState {
-    /// Pixels in which there was something to merge on.
+    /// Whether there was a surface to merge on in each pixel, in any pass so far.
     seen: Vec<bool>,
 }
 
-/// How to merge, if the camera sees any diffuse surface through or in something specular.
+/// Decides how to merge by a few camera paths; `None` if none of them meets a diffuse surface through or in something
+/// specular.
 pub fn probe_merging<const INTERIORS: bool>(job: &Job<INTERIORS>) -> (Option<Merging>, Counters) {
     let mut workspace = Workspace::new(job.scene);
     let (width, height) = (job.film.width, job.film.height);
@@ -78,7 +79,7 @@ pub fn probe_merging<const INTERIORS: bool>(job: &Job<INTERIORS>) -> (Option<Mer
     (Some(merging), workspace.counters)
 }
 
-/// One pass: its photons, and what they add to the picture.
+/// Renders one pass: traces its photons and adds what they bring to the picture.
 pub fn merge_pass<const INTERIORS: bool>(
     job: &Job<INTERIORS>,
     merging: &Merging,
@@ -122,8 +123,8 @@ pub fn merge_pass<const INTERIORS: bool>(
     counters
 }
 
-/// Whether a pass looks at a pixel, as the weight of what it finds: pixels that showed nothing to merge on in earlier
-/// passes are looked at now and then.
+/// Returns the weight of what a pass finds in a pixel, or `None` if it does not look there. Pixels that showed nothing to
+/// merge on in earlier passes are looked at now and then, with a weight that makes up for it.
 fn look_at<const INTERIORS: bool>(job: &Job<INTERIORS>, seen: bool, pixel: u32, pass: u64) -> Option<f32> {
     if seen || pass < FULL_PASSES {
         return Some(1.0);
@@ -132,6 +133,7 @@ fn look_at<const INTERIORS: bool>(job: &Job<INTERIORS>, seen: bool, pixel: u32, 
     (random as f32 * (1.0 / (1u64 << 24) as f32) < SECOND_LOOK).then_some(1.0 / SECOND_LOOK)
 }
 
+/// Traces the photons of a pass and sorts them by place.
 fn photon_map<const INTERIORS: bool>(
     job: &Job<INTERIORS>,
     merging: &Merging,
@@ -172,7 +174,7 @@ fn photon_map<const INTERIORS: bool>(
     (PhotonMap::new(photons, merging.radius_of(pass), merging.photon_paths), counters)
 }
 
-/// Radiance that the photons add to a pixel, and whether there was a surface to merge on.
+/// Returns the radiance that the photons add to a pixel, and whether there was a surface to merge on.
 fn merge_pixel<const INTERIORS: bool>(
     job: &Job<INTERIORS>,
     workspace: &mut Workspace,

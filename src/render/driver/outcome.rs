@@ -1,4 +1,4 @@
-//! What a render tells: how far it is, and what came of it.
+//! What a render reports: its progress between passes, and its outcome at the end.
 
 use super::plan::Decisions;
 use super::profile::Profile;

@@ -29,16 +29,16 @@ const LIGHT_PATHS: u64 = 1 << 16;
 /// Variance of a sample, relative to the square of the pixel's brightness, beyond which it counts as this: what rare
 /// samples say about the variance is mostly chance.
 const LARGEST_VARIANCE: f64 = 64.0;
-/// What a path costs beside its rays, in rays.
+/// Cost of a path beside that of its rays, in units of a ray.
 const COST_OF_A_PATH: f64 = 1.0;
 
-/// A trial of camera paths: of each square the samples' values.
+/// A trial of camera paths: the values of all samples, square by square, and the rays that they took.
 struct CameraTrial {
     squares: Vec<[Xyz; SAMPLES as usize]>,
     rays: u64,
 }
 
-/// A trial of light paths.
+/// A trial of light paths, and the rays that they took.
 struct LightTrial {
     paths: Vec<LightTrialPath>,
     rays: u64,
@@ -48,7 +48,7 @@ struct LightTrial {
 struct LightTrialPath {
     light: u32,
     numbers: [f32; 2],
-    /// Pixels with what they got.
+    /// Each pixel that the path reached, with what it added there.
     hits: Vec<(u32, Xyz)>,
 }
 
@@ -76,7 +76,7 @@ impl Brightness {
     }
 }
 
-/// Betters the plan of a job by a pilot, if one pays. Returns the rays that it took.
+/// Improves the plan of a job by a pilot, if one pays. Returns the rays that it took.
 pub fn run_pilot<const INTERIORS: bool>(job: &mut Job<INTERIORS>) -> u64 {
     let dispersion = job.scene.features.dispersion;
     let bundles = dispersion && matches!(job.plan.camera.parting, Parting::Ways(_));
@@ -109,7 +109,7 @@ pub fn run_pilot<const INTERIORS: bool>(job: &mut Job<INTERIORS>) -> u64 {
     camera.iter().map(|t| t.rays).chain(lights.iter().map(|t| t.rays)).sum()
 }
 
-/// Learns where light paths start.
+/// Learns from the trials where light paths should start.
 fn learn_guide(scene: &Scene, plan: &mut Plan, trials: &[LightTrial], brightness: &Brightness) {
     let Techniques::CameraAndLight { guide, .. } = &mut plan.techniques else { return };
     let mut experience = Experience::new(scene);
@@ -119,12 +119,12 @@ fn learn_guide(scene: &Scene, plan: &mut Plan, trials: &[LightTrial], brightness
     *guide = experience.guide(guide, scene);
 }
 
-/// Squares of the picture across and down.
+/// Returns how many squares the picture has across and down.
 fn squares(film: &FilmSettings) -> [u32; 2] {
     [film.width, film.height].map(|size| size.div_ceil(SQUARE))
 }
 
-/// The pixel of a square that the pilot looks at: another in each.
+/// Returns the pixel of a square that the pilot looks at, at a random place in each square.
 fn pilot_pixel(film: &FilmSettings, square: u32) -> u32 {
     let across = squares(film)[0];
     let random = mix(u64::from(square));
@@ -133,6 +133,7 @@ fn pilot_pixel(film: &FilmSettings, square: u32) -> u32 {
     y * film.width + x
 }
 
+/// Traces a few camera paths in each square, whose lanes part into so many ways.
 fn camera_trial<const INTERIORS: bool>(job: &Job<INTERIORS>, ways: u8) -> CameraTrial {
     let [across, down] = squares(job.film);
     let rows: Vec<(Vec<[Xyz; SAMPLES as usize]>, u64)> = (0..down)
@@ -164,6 +165,7 @@ fn camera_trial<const INTERIORS: bool>(job: &Job<INTERIORS>, ways: u8) -> Camera
     CameraTrial { squares: rows.into_iter().flat_map(|(squares, _)| squares).collect(), rays }
 }
 
+/// Traces light paths whose lanes part into so many ways.
 fn light_trial<const INTERIORS: bool>(job: &Job<INTERIORS>, ways: u8) -> LightTrial {
     let blocks = block_count((job.scene.camera.pixels() / 2).clamp(1, LIGHT_PATHS));
     let filter = Filter::boxed(0.5);
@@ -218,7 +220,7 @@ fn brightness(film: &FilmSettings, camera: &[CameraTrial], light: &[LightTrial])
 }
 
 impl CameraTrial {
-    /// Mean relative variance of a sample of a pixel.
+    /// Returns the variance of a sample, relative to the brightness of its pixel and averaged over the picture.
     fn variance(&self, brightness: &Brightness, pixel_of: impl Fn(u32) -> u32) -> f64 {
         let of_square = |(square, samples): (usize, &[Xyz; SAMPLES as usize])| {
             let n = SAMPLES as f64;
@@ -265,7 +267,7 @@ impl LightTrialPath {
     }
 }
 
-/// The least of some numbers, the first of equals.
+/// Returns the index of the least of some numbers, and of equal ones the first.
 fn best(values: impl Iterator<Item = f64>) -> usize {
     values.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(index, _)| index)
 }

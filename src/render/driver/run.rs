@@ -111,7 +111,7 @@ fn new_film<const INTERIORS: bool>(job: &Job<INTERIORS>) -> Film {
     if job.filter_reach() > 0 { film.filtered(&settings.filter) } else { film }
 }
 
-/// Looks at the error, if there is a target for it.
+/// Looks at the error, if there is a target for it, and tells whether the target is reached.
 fn reaches_target<const INTERIORS: bool>(job: &Job<INTERIORS>, film: &Film, state: &mut RenderState) -> bool {
     let Some(target) = job.settings.target_error else { return false };
     state.looks += 1;
@@ -119,7 +119,7 @@ fn reaches_target<const INTERIORS: bool>(job: &Job<INTERIORS>, film: &Film, stat
     state.error_bound.is_some_and(|bound| bound < target)
 }
 
-/// Fixes the split of the work up to the end of the next segment.
+/// Starts the next segment: fixes its end and its split of the work.
 fn start_segment<const INTERIORS: bool>(
     job: &mut Job<INTERIORS>,
     state: &mut RenderState,
@@ -148,7 +148,7 @@ fn start_segment<const INTERIORS: bool>(
     }
 }
 
-/// Renders a segment in passes, or what of it there is time for.
+/// Renders a segment in passes, or as much of it as there is time for.
 fn segment<const INTERIORS: bool>(
     job: &Job<INTERIORS>,
     film: &mut Film,
@@ -189,7 +189,7 @@ fn segment<const INTERIORS: bool>(
     ending
 }
 
-/// Samples for which there is time until the deadline; a round at least where none has been taken yet.
+/// Returns the samples for which there is time until the deadline, and one round if none has been taken yet.
 fn samples_in_time<const INTERIORS: bool>(job: &Job<INTERIORS>, state: &RenderState) -> u64 {
     let Some(deadline) = job.settings.deadline else { return u64::MAX };
     let left = deadline.saturating_duration_since(Instant::now()).as_secs_f64();
@@ -199,7 +199,7 @@ fn samples_in_time<const INTERIORS: bool>(job: &Job<INTERIORS>, state: &RenderSt
     }
 }
 
-/// The work of all techniques up to `samples`. Light paths come in whole blocks, the rest of which is traced where the
+/// Does the work of all techniques up to `samples`. Light paths come in whole blocks, the rest of which is traced where the
 /// film is to be `exact`: at the end of a segment, and wherever a render stops.
 fn passes<const INTERIORS: bool>(
     job: &Job<INTERIORS>,

@@ -13,12 +13,12 @@ const DEFENSIVE: f64 = 0.2;
 #[derive(Debug, Clone)]
 pub struct Guide {
     lights: AliasTable,
-    /// One a light; `None` where every cell is as likely.
+    /// The grid of each light; `None` if all its cells are equally likely.
     grids: Vec<Option<GridDensity>>,
 }
 
 impl Guide {
-    /// Lights by a table, and nothing learnt.
+    /// Draws lights by a table and starts paths evenly: nothing is learnt yet.
     pub fn plain(lights: AliasTable, scene: &Scene) -> Self {
         Self { lights, grids: vec![None; scene.lights.len()] }
     }
@@ -28,12 +28,12 @@ impl Guide {
         self.lights.sample(u)
     }
 
-    /// Probability of a light.
+    /// Returns the probability of a light.
     pub fn probability(&self, light: u32) -> f32 {
         self.lights.probability(light as usize)
     }
 
-    /// Moves the guided one of two pairs of random numbers; the density by which to divide.
+    /// Moves the guided one of two pairs of random numbers. Returns the density by which to divide the path's weight.
     pub fn warp(&self, light: usize, pair: Option<GuidedPair>, u: &mut [f32; 2], v: &mut [f32; 2]) -> f32 {
         let (Some(grid), Some(pair)) = (&self.grids[light], pair) else { return 1.0 };
         let numbers = match pair {
@@ -44,7 +44,7 @@ impl Guide {
         grid.density(*numbers)
     }
 
-    /// Density relative to that of an unguided path, for light that leaves in this way.
+    /// Returns the density of light that leaves in this way, relative to that of an unguided path.
     pub fn density(&self, index: u32, light: &Light, exit: &Exit, aim: &Aim) -> f32 {
         let Some(grid) = &self.grids[index as usize] else { return 1.0 };
         light.guided_numbers(exit, aim).map_or(1.0, |numbers| grid.density(numbers))
@@ -54,12 +54,12 @@ impl Guide {
 /// What a pilot saw of each light and cell, with the densities of the plain guide that it used.
 #[derive(Debug)]
 pub struct Experience {
-    /// Of each light: paths, and sum of squares of what they contributed, for each cell.
+    /// Cells of each light, each with its number of paths and the sum of squares of what they contributed.
     lights: Vec<Vec<[f64; 2]>>,
 }
 
 impl Experience {
-    /// Of nothing.
+    /// Makes an empty record.
     pub fn new(scene: &Scene) -> Self {
         Self { lights: vec![vec![[0.0; 2]; SIDE * SIDE]; scene.lights.len()] }
     }
@@ -101,13 +101,13 @@ impl Experience {
     }
 }
 
-/// Densities of mean 1 in proportion to some weights, mixed with the constant.
+/// Returns densities of mean 1 in proportion to some weights, mixed with a constant density.
 fn defensive(weights: &[f64]) -> Vec<f64> {
     let mean = weights.iter().sum::<f64>() / weights.len() as f64;
     weights.iter().map(|w| if mean > 0.0 { DEFENSIVE + (1.0 - DEFENSIVE) * w / mean } else { 1.0 }).collect()
 }
 
-/// Probabilities in proportion to some weights, mixed with others.
+/// Returns probabilities in proportion to some weights, mixed with plain ones.
 fn defensive_over(weights: &[f64], plain: impl Fn(usize) -> f64) -> Vec<f64> {
     let total: f64 = weights.iter().sum();
     let learnt = |w: f64| if total > 0.0 { w / total } else { 0.0 };

@@ -18,7 +18,7 @@ use glam::Vec3;
 pub struct LightTracer<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// Where they start.
+    /// Where light paths start.
     pub guide: &'a Guide,
     /// Whether they are aimed at what can focus light and followed for what they own, see [`super::table`], or cover
     /// everything.
@@ -34,7 +34,7 @@ pub struct LightTracer<'a> {
 pub struct Start {
     /// Index of its light.
     pub light: u32,
-    /// Where it left it.
+    /// Where and how it left the light.
     pub emission: Emission,
     /// The guided pair of random numbers, after the guide has moved it.
     pub numbers: [f32; 2],
@@ -42,7 +42,7 @@ pub struct Start {
     pub spectrum: SampledSpectrum,
     /// Power that it carries in each lane, before any scattering.
     pub power: SampledSpectrum,
-    /// Its wavelengths.
+    /// The wavelengths of its lanes.
     pub wavelengths: Wavelengths,
 }
 
@@ -65,9 +65,9 @@ pub enum First {
 /// A light path at a surface that is not specular.
 #[derive(Debug, Clone, Copy)]
 pub struct Arrival<'a> {
-    /// What it met before, and first.
+    /// What the path met first, before this surface.
     pub first: First,
-    /// Where it is.
+    /// The vertex at this surface.
     pub vertex: &'a Vertex<'a>,
     /// Two random numbers that nothing else uses.
     pub u: [f32; 2],
@@ -222,16 +222,16 @@ pub struct Splatter<'a> {
     pub splats: Splats,
     /// Light and guided numbers of the last path that left one.
     pub start: Option<(u32, [f32; 2])>,
-    /// Of the path under way: see [`Techniques::light_path_density`].
+    /// Density of the path under way, see [`Techniques::light_path_density`].
     density: Option<LightPathDensity>,
-    /// The sensor's, at the wavelengths of the path under way.
+    /// The sensor's weights at the wavelengths of the path under way.
     weights: Vec<SampledSpectrum>,
     /// Memory for the values of a contribution.
     values: Vec<f64>,
 }
 
 impl<'a> Splatter<'a> {
-    /// With no splats yet.
+    /// Makes a collector without any splats yet.
     pub fn new(sensor: &'a Sensor, filter: &'a Filter, techniques: &'a Techniques) -> Self {
         let splats = Splats::new(sensor.channels());
         Self { sensor, filter, techniques, splats, start: None, density: None, weights: Vec::new(), values: Vec::new() }
