@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 /// Times of single rays: looking at the clock costs as much as a short ray, so only a few are timed.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TimedRays {
-    /// Rays timed.
+    /// Number of rays timed.
     pub rays: u64,
-    /// What they took, with the look at the clock.
+    /// Time that they took, looks at the clock included.
     pub total: Duration,
 }
 
@@ -33,13 +33,13 @@ impl TimedRays {
         result
     }
 
-    /// Adds the times of another thread.
+    /// Adds the rays that another thread has timed.
     pub fn add(&mut self, other: Self) {
         self.rays += other.rays;
         self.total += other.total;
     }
 
-    /// Returns the mean time of a ray without the look at the clock, seconds; 0 if none was timed.
+    /// Mean time of a ray without the look at the clock, seconds; 0 if none was timed.
     pub fn seconds_per_ray(&self) -> f64 {
         if self.rays == 0 {
             return 0.0;

@@ -8,7 +8,7 @@ use crate::sampling::mix;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Noise and cost are known from few samples: of each pixel they are the mean over a square that reaches so far.
+/// Pixels that the blur of noise and cost reaches on each side: a single pixel has too few samples to know either.
 const REACH: usize = 2;
 /// Share of the samples that are spread evenly, against what earlier stages have missed.
 const DEFENSIVE: f64 = 0.1;
@@ -19,13 +19,13 @@ const LARGEST_VARIANCE: f64 = 1.0;
 const LARGEST_RATE: f64 = 16.0;
 /// Least samples of a pixel in a stage: one in each replicate.
 const LEAST_SAMPLES: u64 = 2;
-/// What a path costs beside its rays, in rays.
+/// Cost of a path beside that of its rays, in units of a ray.
 const COST_OF_A_PATH: f64 = 1.0;
 
-/// What the stages of a render give each pixel.
+/// The numbers of samples that each pixel gets in the stages of a render.
 #[derive(Debug, Default)]
 pub struct Adaptive {
-    /// Of what is left to chance.
+    /// Seed of the random rounding of sample numbers.
     seed: u64,
     /// Samples of each pixel in earlier stages.
     before: Vec<u64>,
@@ -36,14 +36,14 @@ pub struct Adaptive {
 }
 
 impl Adaptive {
-    /// Of a picture with so many pixels.
+    /// Starts with a picture of so many pixels, all alike.
     pub fn new(pixels: usize, seed: u64) -> Self {
         Self { seed, before: vec![0; pixels], counts: Vec::new(), rays: vec![0; pixels] }
     }
 
-    /// The samples of a pixel in a round of a stage, and what each counts: as much as all stages' samples do on average. Which
-    /// share of its samples a pixel has by then is rounded by chance, so that in a stage that is broken off it is right
-    /// on average.
+    /// Returns the samples of a pixel in a round of a stage, and the weight of each: a stage counts as much in every pixel,
+    /// however many samples the pixel gets. The share of the samples that is due by the end of a round is rounded at random,
+    /// so that it is right on average in a stage that is broken off.
     pub fn samples(&self, pixel: usize, round: &Range<u64>, stage: &Segment) -> (Range<u64>, f64) {
         let Some(&count) = self.counts.get(pixel) else { return (round.clone(), 1.0) };
         let length = stage.samples.end - stage.samples.start;
@@ -53,7 +53,7 @@ impl Adaptive {
         (part(round.start)..part(round.end), length as f64 / count as f64)
     }
 
-    /// Adds what a pixel has cost.
+    /// Adds rays that were traced for a pixel.
     pub fn add_rays(&mut self, pixel: usize, rays: u64) {
         self.rays[pixel] += rays;
     }
@@ -73,12 +73,13 @@ impl Adaptive {
     }
 }
 
-/// Samples at a rate in a stage: as many in each replicate.
+/// Returns the samples that a pixel with this rate gets in a stage, as many in each replicate.
 fn count(rate: f64, length: u64) -> u64 {
     ((0.5 * rate * length as f64).round() as u64 * 2).max(LEAST_SAMPLES)
 }
 
-/// Samples for each sample on average, at the cost of an even spread.
+/// Returns the rate of each pixel, that is its samples for each sample that pixels get on average. All together cost as much
+/// as an even spread.
 fn rates(variances: &[f64], costs: &[f64]) -> Vec<f64> {
     let wanted: Vec<f64> = variances.iter().zip(costs).map(|(v, c)| (v / c).sqrt()).collect();
     let total: f64 = costs.iter().sum();
@@ -87,7 +88,7 @@ fn rates(variances: &[f64], costs: &[f64]) -> Vec<f64> {
     wanted.iter().map(|w| (DEFENSIVE + scale * w).min(LARGEST_RATE)).collect()
 }
 
-/// Means over squares around each pixel.
+/// Returns the mean over the square around each pixel.
 fn blurred(values: &[f64], [width, height]: [usize; 2]) -> Vec<f64> {
     let around = |at: usize, size: usize| at.saturating_sub(REACH)..(at + REACH + 1).min(size);
     let mean_of_row = |row: usize, x: usize| {

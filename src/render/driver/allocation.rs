@@ -14,7 +14,7 @@ const MOST_MERGE_PASSES: f64 = 4.0;
 /// rarely must be looked for all the same.
 const LEAST_SHARE: f64 = 1.0 / 32.0;
 
-/// Numbers relative to those of camera paths.
+/// A split of the work: light paths and passes of merging relative to camera paths.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Allocation {
     /// Light paths for each camera path.
@@ -23,14 +23,14 @@ pub struct Allocation {
     pub merged: f64,
 }
 
-/// Rays traced by each technique, and the splits by which they were.
+/// Rays that each technique has traced, and the splits of the segments so far.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Spent {
-    /// For camera paths.
+    /// Rays of camera paths.
     pub camera: u64,
-    /// For light paths.
+    /// Rays of light paths.
     pub light: u64,
-    /// For merging.
+    /// Rays of merging.
     pub merged: u64,
     /// Samples of a pixel in closed segments.
     samples: f64,
@@ -41,7 +41,7 @@ pub struct Spent {
 }
 
 impl Spent {
-    /// Ends a segment of some samples of a pixel.
+    /// Records that a segment of some samples a pixel has ended, with the split that it had.
     pub fn close_segment(&mut self, samples: u64, allocation: Allocation) {
         let samples = samples as f64;
         self.samples += samples;
@@ -52,13 +52,13 @@ impl Spent {
 }
 
 impl Allocation {
-    /// Before anything is known.
+    /// The split with which a render starts, when nothing is known.
     pub const START: Self = Self { light: 0.5, merged: 0.5 };
 
-    /// The best split, after what has been measured with earlier ones from a film and the rays that it took.
+    /// Returns the best split by the noise on the film and the rays that it took, both measured with earlier splits.
     pub fn next(self, film: &Film, spent: &Spent) -> Self {
         let Some(variances) = film.relative_variances(LARGEST) else { return self };
-        // Of one path or pass, in units of those of a sample.
+        // Variance and cost are those of one path or pass, relative to those of a camera sample.
         let better = |before: f64, variance: f64, cost: f64, most: f64| {
             let least = (LEAST_SHARE / cost).min(most);
             let best = (variance / cost).sqrt();

@@ -2,18 +2,22 @@
 
 mod adaptive;
 mod allocation;
+mod blocks;
+mod camera_pass;
+mod camera_path;
+mod job;
+mod light_pass;
 mod merging;
 mod outcome;
-mod passes;
 mod pilot;
 mod plan;
 mod profile;
-mod renderer;
 mod run;
 mod schedule;
 mod state;
 mod stopping;
 mod streams;
+mod tiles;
 
 pub use outcome::{Progress, Rendering, Statistics};
 pub use plan::{Decisions, blind_spot};

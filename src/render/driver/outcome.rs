@@ -1,4 +1,4 @@
-//! What a render tells: how far it is, and what came of it.
+//! What a render reports: its progress between passes, and its outcome at the end.
 
 use super::plan::Decisions;
 use super::profile::Profile;
@@ -16,7 +16,7 @@ pub struct Rendering {
     pub profile: Profile,
 }
 
-/// What a render did.
+/// What was done in a render, in numbers.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Statistics {
     /// Samples of each pixel, on average: asking for so many gives the same picture, whatever stopped this one.
@@ -27,7 +27,7 @@ pub struct Statistics {
     pub light_paths: u64,
     /// Light paths traced for merging.
     pub photon_paths: u64,
-    /// What was decided before.
+    /// What the plan of the render decided, in numbers.
     pub decisions: Decisions,
     /// Rays and mishaps.
     pub counters: Counters,

@@ -1,16 +1,19 @@
 //! A short render, thrown away, from which the plan learns: how many lanes are worth following, and where light paths
 //! start.
 
-use super::passes::{block, block_count};
+use super::blocks::{block, block_count};
+use super::camera_path::camera_sample;
+use super::job::Job;
+use super::light_pass::light_tracer;
 use super::plan::Plan;
-use super::renderer::Renderer;
 use super::streams::pilot_seed;
+use super::tiles::column_and_row;
 use crate::bsdf::{Branching, Parting};
-use crate::film::{Filter, Xyz, value};
+use crate::film::{Filter, Splats, Xyz, value};
 use crate::render::paths::{Counters, Place, Workspace};
 use crate::render::techniques::{Experience, LightTracer, Splatter, Techniques};
 use crate::sampling::{Sobol, mix};
-use crate::scene::LightId;
+use crate::scene::{FilmSettings, LightId, Scene};
 use rayon::prelude::*;
 
 /// Numbers of ways that are tried. Eight have been the best nowhere, and to try them would cost as much as all others.
@@ -26,16 +29,16 @@ const LIGHT_PATHS: u64 = 1 << 16;
 /// Variance of a sample, relative to the square of the pixel's brightness, beyond which it counts as this: what rare
 /// samples say about the variance is mostly chance.
 const LARGEST_VARIANCE: f64 = 64.0;
-/// What a path costs beside its rays, in rays.
+/// Cost of a path beside that of its rays, in units of a ray.
 const COST_OF_A_PATH: f64 = 1.0;
 
-/// A trial of camera paths: of each square the samples' values.
+/// A trial of camera paths: the values of all samples, square by square, and the rays that they took.
 struct CameraTrial {
     squares: Vec<[Xyz; SAMPLES as usize]>,
     rays: u64,
 }
 
-/// A trial of light paths.
+/// A trial of light paths, and the rays that they took.
 struct LightTrial {
     paths: Vec<LightTrialPath>,
     rays: u64,
@@ -45,7 +48,7 @@ struct LightTrial {
 struct LightTrialPath {
     light: LightId,
     numbers: [f32; 2],
-    /// Pixels with what they got.
+    /// Each pixel that the path reached, with what it added there.
     hits: Vec<(u32, Xyz)>,
 }
 
@@ -73,150 +76,157 @@ impl Brightness {
     }
 }
 
-impl<const INTERIORS: bool> Renderer<'_, INTERIORS> {
-    /// The plan of this renderer, bettered by a pilot if that pays.
-    pub fn piloted(self) -> (Self, Counters) {
-        let light = matches!(self.plan.techniques, Techniques::CameraAndLight { .. });
-        let bundles = self.scene.features.dispersion && matches!(self.plan.camera.parting, Parting::Ways(_));
-        if self.settings.samples_per_pixel < LEAST_SAMPLES || !(light || bundles) || self.light_only() {
-            return (self, Counters::default());
+/// Improves the plan of a job by a pilot, if one pays. Returns the rays that it took.
+pub fn run_pilot<const INTERIORS: bool>(job: &mut Job<INTERIORS>) -> u64 {
+    let dispersion = job.scene.features.dispersion;
+    let bundles = dispersion && matches!(job.plan.camera.parting, Parting::Ways(_));
+    let (light, pays) = match job.plan.techniques {
+        Techniques::Path => (false, bundles),
+        Techniques::CameraAndLight { .. } => (true, true),
+        Techniques::Light { .. } => (false, false),
+    };
+    if !pays || job.settings.samples_per_pixel < LEAST_SAMPLES {
+        return 0;
+    }
+
+    // The trials.
+    let ways: &[u8] = if dispersion { &WAYS } else { &WAYS[..1] };
+    let light_ways = if light { ways } else { &[] };
+    let camera: Vec<CameraTrial> = ways.iter().map(|&ways| camera_trial(job, ways)).collect();
+    let lights: Vec<LightTrial> = light_ways.iter().map(|&ways| light_trial(job, ways)).collect();
+
+    // What follows from them.
+    let brightness = brightness(job.film, &camera, &lights);
+    let camera_work =
+        |t: &CameraTrial| t.variance(&brightness, |square| pilot_pixel(job.film, square)) * t.cost_of_a_path();
+    let best_camera = best(camera.iter().map(camera_work));
+    job.plan.camera.parting = Parting::Ways(ways[best_camera]);
+    if light {
+        let best_light = best(lights.iter().map(|t| t.mean_square(&brightness) * t.cost_of_a_path()));
+        job.plan.light.parting = Parting::Ways(ways[best_light]);
+        learn_guide(job.scene, &mut job.plan, &lights, &brightness);
+    }
+    camera.iter().map(|t| t.rays).chain(lights.iter().map(|t| t.rays)).sum()
+}
+
+/// Learns from the trials where light paths should start.
+fn learn_guide(scene: &Scene, plan: &mut Plan, trials: &[LightTrial], brightness: &Brightness) {
+    let Techniques::CameraAndLight { guide, .. } = &mut plan.techniques else { return };
+    let mut experience = Experience::new(scene);
+    for path in trials.iter().flat_map(|t| &t.paths) {
+        experience.add(path.light, path.numbers, path.square(brightness));
+    }
+    *guide = experience.guide(guide, scene);
+}
+
+/// Returns how many squares the picture has across and down.
+fn squares(film: &FilmSettings) -> [u32; 2] {
+    [film.width, film.height].map(|size| size.div_ceil(SQUARE))
+}
+
+/// Returns the pixel of a square that the pilot looks at, at a random place in each square.
+fn pilot_pixel(film: &FilmSettings, square: u32) -> u32 {
+    let across = squares(film)[0];
+    let random = mix(u64::from(square));
+    let x = (square % across * SQUARE + random as u32 % SQUARE).min(film.width - 1);
+    let y = (square / across * SQUARE + (random >> 32) as u32 % SQUARE).min(film.height - 1);
+    y * film.width + x
+}
+
+/// Traces a few camera paths in each square, whose lanes part into so many ways.
+fn camera_trial<const INTERIORS: bool>(job: &Job<INTERIORS>, ways: u8) -> CameraTrial {
+    let [across, down] = squares(job.film);
+    let rows: Vec<(Vec<[Xyz; SAMPLES as usize]>, u64)> = (0..down)
+        .into_par_iter()
+        .map_init(
+            || Workspace::new(job.scene),
+            |workspace, row| {
+                workspace.counters = Counters::default();
+                let mut weights = Vec::new();
+                let squares = (0..across).map(|column| {
+                    let pixel = pilot_pixel(job.film, row * across + column);
+                    std::array::from_fn(|sample| {
+                        let branching = Branching { parting: Parting::Ways(ways), ..job.plan.camera };
+                        let (seed, at) = (pilot_seed(job.settings.seed), column_and_row(job.film, pixel));
+                        let found = camera_sample(job, workspace, at, sample as u64, seed, branching);
+                        if found.radiance.is_zero() {
+                            return Xyz::default();
+                        }
+                        job.film.sensor.weights(&found.wavelengths, &mut weights);
+                        let xyz: Xyz = std::array::from_fn(|c| value(weights[c], found.radiance));
+                        if xyz.iter().all(|v| v.is_finite()) { xyz } else { Xyz::default() }
+                    })
+                });
+                (squares.collect(), workspace.counters.rays)
+            },
+        )
+        .collect();
+    let rays = rows.iter().map(|(_, rays)| rays).sum();
+    CameraTrial { squares: rows.into_iter().flat_map(|(squares, _)| squares).collect(), rays }
+}
+
+/// Traces light paths whose lanes part into so many ways.
+fn light_trial<const INTERIORS: bool>(job: &Job<INTERIORS>, ways: u8) -> LightTrial {
+    let blocks = block_count((job.scene.camera.pixels() / 2).clamp(1, LIGHT_PATHS));
+    let filter = Filter::boxed(0.5);
+    let sobol = Sobol::new(mix(pilot_seed(job.settings.seed) ^ u64::from(ways)));
+    let results: Vec<(Vec<LightTrialPath>, u64)> = (0..blocks)
+        .into_par_iter()
+        .map_init(
+            || Workspace::new(job.scene),
+            |workspace, index| {
+                workspace.counters = Counters::default();
+                let branching = Branching { parting: Parting::Ways(ways), ..job.plan.light };
+                let tracer = LightTracer { branching, ..light_tracer(job) };
+                let mut splatter = Splatter::new(&job.film.sensor, &filter, &job.plan.techniques);
+                let paths = block(index)
+                    .filter_map(|index| {
+                        splatter.start = None;
+                        let place = Place { sobol, index };
+                        tracer.trace::<INTERIORS>(workspace, place, None, &mut splatter);
+                        let (light, numbers) = splatter.start?;
+                        let hits = hits_of(&splatter.splats);
+                        splatter.splats.clear();
+                        Some(LightTrialPath { light, numbers, hits })
+                    })
+                    .collect();
+                (paths, workspace.counters.rays)
+            },
+        )
+        .collect();
+    let rays = results.iter().map(|(_, rays)| rays).sum();
+    LightTrial { paths: results.into_iter().flat_map(|(paths, _)| paths).collect(), rays }
+}
+
+/// Lists the pixels that get something, each with what it gets.
+fn hits_of(splats: &Splats) -> Vec<(u32, Xyz)> {
+    let of = |values: &[f64], share: f32| std::array::from_fn(|c| values[c] * f64::from(share));
+    let contributions = splats.iter();
+    contributions.flat_map(|(values, shares)| shares.iter().map(|s| (s.pixel, of(values, s.share)))).collect()
+}
+
+/// Puts together what all trials have seen of the picture.
+fn brightness(film: &FilmSettings, camera: &[CameraTrial], light: &[LightTrial]) -> Brightness {
+    let [across, down] = squares(film);
+    let mut squares = vec![[0.0; 3]; (across * down) as usize];
+    let share = 1.0 / (camera.len() as u64 * SAMPLES) as f64;
+    for trial in camera {
+        for (square, samples) in squares.iter_mut().zip(&trial.squares) {
+            samples.iter().for_each(|xyz| (0..3).for_each(|c| square[c] += share * xyz[c]));
         }
-        let mut counters = Counters::default();
-        let ways: &[u8] = if self.scene.features.dispersion { &WAYS } else { &WAYS[..1] };
-        let camera: Vec<CameraTrial> = ways.iter().map(|&ways| self.camera_trial(ways)).collect();
-        let lights: Vec<LightTrial> =
-            if light { ways.iter().map(|&ways| self.light_trial(ways)).collect() } else { Vec::new() };
-        counters.rays += camera.iter().map(|t| t.rays).chain(lights.iter().map(|t| t.rays)).sum::<u64>();
-        let brightness = self.brightness(&camera, &lights);
-
-        let best_camera = best(
-            camera.iter().map(|t| t.variance(&brightness, |square| self.pilot_pixel(square)) * t.cost_of_a_path()),
-        );
-        let mut plan = self.plan.clone();
-        plan.camera.parting = Parting::Ways(ways[best_camera]);
-        if light {
-            let best_light = best(lights.iter().map(|t| t.mean_square(&brightness) * t.cost_of_a_path()));
-            plan.light.parting = Parting::Ways(ways[best_light]);
-            self.learn_guide(&mut plan, &lights, &brightness);
-        }
-        (Self { plan, ..self }, counters)
     }
-
-    fn light_only(&self) -> bool {
-        matches!(self.plan.techniques, Techniques::Light { .. })
+    let mut pixels = vec![[0.0; 3]; (film.width * film.height) as usize];
+    let share = 1.0 / light.iter().map(|t| t.paths.len()).sum::<usize>() as f64;
+    for (pixel, xyz) in light.iter().flat_map(|t| &t.paths).flat_map(|p| &p.hits) {
+        (0..3).for_each(|c| pixels[*pixel as usize][c] += share * xyz[c]);
     }
-
-    /// Learns where light paths start.
-    fn learn_guide(&self, plan: &mut Plan, trials: &[LightTrial], brightness: &Brightness) {
-        let Techniques::CameraAndLight { guide, .. } = &mut plan.techniques else { return };
-        let mut experience = Experience::new(self.scene);
-        for path in trials.iter().flat_map(|t| &t.paths) {
-            experience.add(path.light, path.numbers, path.square(brightness));
-        }
-        *guide = experience.guide(guide, self.scene);
-    }
-
-    /// Squares of the picture across and down.
-    fn squares(&self) -> [u32; 2] {
-        [self.film.width, self.film.height].map(|size| size.div_ceil(SQUARE))
-    }
-
-    /// The pixel of a square that the pilot looks at: another in each.
-    fn pilot_pixel(&self, square: u32) -> u32 {
-        let across = self.squares()[0];
-        let random = mix(u64::from(square));
-        let x = (square % across * SQUARE + random as u32 % SQUARE).min(self.film.width - 1);
-        let y = (square / across * SQUARE + (random >> 32) as u32 % SQUARE).min(self.film.height - 1);
-        y * self.film.width + x
-    }
-
-    fn camera_trial(&self, ways: u8) -> CameraTrial {
-        let [across, down] = self.squares();
-        let rows: Vec<(Vec<[Xyz; SAMPLES as usize]>, u64)> = (0..down)
-            .into_par_iter()
-            .map_init(
-                || Workspace::new(self.scene),
-                |workspace, row| {
-                    workspace.counters = Counters::default();
-                    let mut weights = Vec::new();
-                    let squares = (0..across).map(|column| {
-                        let pixel = self.pilot_pixel(row * across + column);
-                        std::array::from_fn(|sample| {
-                            let branching = Branching { parting: Parting::Ways(ways), ..self.plan.camera };
-                            let (seed, at) = (pilot_seed(self.settings.seed), self.column_and_row(pixel));
-                            let found = self.camera_sample(workspace, at, sample as u64, seed, branching);
-                            self.film.sensor.weights(&found.wavelengths, &mut weights);
-                            let xyz: Xyz = std::array::from_fn(|c| value(weights[c], found.radiance));
-                            if xyz.iter().all(|v| v.is_finite()) { xyz } else { Xyz::default() }
-                        })
-                    });
-                    (squares.collect(), workspace.counters.rays)
-                },
-            )
-            .collect();
-        let rays = rows.iter().map(|(_, rays)| rays).sum();
-        CameraTrial { squares: rows.into_iter().flat_map(|(squares, _)| squares).collect(), rays }
-    }
-
-    fn light_trial(&self, ways: u8) -> LightTrial {
-        let blocks = block_count((self.scene.camera.pixels() / 2).clamp(1, LIGHT_PATHS));
-        let filter = Filter::boxed(0.5);
-        let sobol = Sobol::new(mix(pilot_seed(self.settings.seed) ^ u64::from(ways)));
-        let results: Vec<(Vec<LightTrialPath>, u64)> = (0..blocks)
-            .into_par_iter()
-            .map_init(
-                || Workspace::new(self.scene),
-                |workspace, index| {
-                    workspace.counters = Counters::default();
-                    let branching = Branching { parting: Parting::Ways(ways), ..self.plan.light };
-                    let tracer = LightTracer { branching, ..self.light_tracer() };
-                    let mut splatter = Splatter::new(&self.film.sensor, &filter, &self.plan.techniques);
-                    let paths = block(index)
-                        .filter_map(|index| {
-                            splatter.start = None;
-                            let place = Place { sobol, index };
-                            tracer.trace::<INTERIORS>(workspace, place, None, &mut splatter);
-                            let (light, numbers) = splatter.start?;
-                            let hits = splatter.splats.iter().flat_map(|(values, shares)| {
-                                shares
-                                    .iter()
-                                    .map(|s| (s.pixel, std::array::from_fn(|c| values[c] * f64::from(s.share))))
-                            });
-                            let hits = hits.collect();
-                            splatter.splats.clear();
-                            Some(LightTrialPath { light, numbers, hits })
-                        })
-                        .collect();
-                    (paths, workspace.counters.rays)
-                },
-            )
-            .collect();
-        let rays = results.iter().map(|(_, rays)| rays).sum();
-        LightTrial { paths: results.into_iter().flat_map(|(paths, _)| paths).collect(), rays }
-    }
-
-    fn brightness(&self, camera: &[CameraTrial], light: &[LightTrial]) -> Brightness {
-        let [across, down] = self.squares();
-        let mut squares = vec![[0.0; 3]; (across * down) as usize];
-        let share = 1.0 / (camera.len() as u64 * SAMPLES) as f64;
-        for trial in camera {
-            for (square, samples) in squares.iter_mut().zip(&trial.squares) {
-                samples.iter().for_each(|xyz| (0..3).for_each(|c| square[c] += share * xyz[c]));
-            }
-        }
-        let mut pixels = vec![[0.0; 3]; (self.film.width * self.film.height) as usize];
-        let share = 1.0 / light.iter().map(|t| t.paths.len()).sum::<usize>() as f64;
-        for (pixel, xyz) in light.iter().flat_map(|t| &t.paths).flat_map(|p| &p.hits) {
-            (0..3).for_each(|c| pixels[*pixel as usize][c] += share * xyz[c]);
-        }
-        let mean = |values: &[Xyz]| values.iter().flatten().sum::<f64>() / (3 * values.len()) as f64;
-        let mean = mean(&squares) + mean(&pixels);
-        Brightness { camera: squares, light: pixels, mean, size: [self.film.width, self.film.height] }
-    }
+    let mean = |values: &[Xyz]| values.iter().flatten().sum::<f64>() / (3 * values.len()) as f64;
+    let mean = mean(&squares) + mean(&pixels);
+    Brightness { camera: squares, light: pixels, mean, size: [film.width, film.height] }
 }
 
 impl CameraTrial {
-    /// Mean relative variance of a sample of a pixel.
+    /// Returns the variance of a sample, relative to the brightness of its pixel and averaged over the picture.
     fn variance(&self, brightness: &Brightness, pixel_of: impl Fn(u32) -> u32) -> f64 {
         let of_square = |(square, samples): (usize, &[Xyz; SAMPLES as usize])| {
             let n = SAMPLES as f64;
@@ -263,7 +273,7 @@ impl LightTrialPath {
     }
 }
 
-/// The least of some numbers, the first of equals.
+/// Returns the index of the least of some numbers, and of equal ones the first.
 fn best(values: impl Iterator<Item = f64>) -> usize {
     values.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(index, _)| index)
 }

@@ -18,25 +18,25 @@ const USUAL_WAYS: u8 = 2;
 const CAMERA_LEAST_SHARE: f32 = 1.0 / 16.0;
 const LIGHT_LEAST_SHARE: f32 = 1.0 / 64.0;
 
-/// The decisions.
+/// The decisions by which a scene is rendered.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// Which technique finds what.
     pub techniques: Techniques,
     /// Where camera paths branch.
     pub camera: Branching,
-    /// Where light paths do.
+    /// Where light paths branch.
     pub light: Branching,
     /// How photons are merged, if they are.
     pub merging: Option<Merging>,
 }
 
-/// The decisions in numbers, for people.
+/// The decisions of a plan in numbers, for people to read.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Decisions {
     /// Lanes that go on where they part, on camera paths.
     pub camera_ways: u32,
-    /// The same on light paths.
+    /// Lanes that go on where they part, on light paths.
     pub light_ways: u32,
     /// Light paths for each camera path; 0 without them.
     pub light_paths_per_camera_path: f64,
@@ -49,7 +49,7 @@ pub struct Decisions {
 }
 
 impl Plan {
-    /// What follows from the scene alone.
+    /// Makes the plan that follows from the scene alone.
     pub fn of_scene(scene: &Scene, integrator: Integrator) -> Self {
         let ways = |ways| Parting::Ways(if scene.features.dispersion { ways } else { 1 });
         let techniques = match integrator {
@@ -72,7 +72,15 @@ impl Plan {
         }
     }
 
-    /// In numbers.
+    /// Sets how photons are merged, if they are, and tells the techniques.
+    pub fn set_merging(&mut self, merging: Option<Merging>) {
+        if let Techniques::CameraAndLight { merging: merges, .. } = &mut self.techniques {
+            *merges = merging.is_some();
+        }
+        self.merging = merging;
+    }
+
+    /// Returns the decisions in numbers.
     pub fn decisions(&self, pilot_rays: u64, allocation: Allocation) -> Decisions {
         let ways = |parting| if let Parting::Ways(ways) = parting { u32::from(ways) } else { 1 };
         Decisions {
@@ -86,7 +94,8 @@ impl Plan {
     }
 }
 
-/// Camera paths, and light paths if there are lights in the table and something that focuses them.
+/// Returns the technique of camera and light paths, or camera paths alone if the table has no lights or nothing in the
+/// scene focuses them.
 fn camera_and_light(scene: &Scene, lights: AliasTable) -> Techniques {
     if lights.is_empty() || scene.caustic_aim.is_none() {
         return Techniques::Path;
@@ -95,7 +104,7 @@ fn camera_and_light(scene: &Scene, lights: AliasTable) -> Techniques {
     Techniques::CameraAndLight { light_paths_per_camera_path: 1.0, guide, merging: false }
 }
 
-/// All lights that light paths can start from but the environment, by power.
+/// Returns a table of all lights that light paths can start from, by power, without the environment.
 fn every_light(scene: &Scene) -> AliasTable {
     let weight = |(index, light): (usize, &Light)| match light.kind {
         LightKind::Environment(_) => 0.0,
@@ -104,7 +113,7 @@ fn every_light(scene: &Scene) -> AliasTable {
     AliasTable::new(&scene.lights.iter().enumerate().map(weight).collect::<Vec<_>>())
 }
 
-/// What a technique cannot see of a scene, if there may be anything: its error then says nothing of what it misses.
+/// Says what an integrator may miss of a scene; `None` if nothing. The error that is estimated leaves out what is missed.
 pub fn blind_spot(scene: &Scene, integrator: Integrator) -> Option<&'static str> {
     let without_extent = |light: &Light| !light.has_extent();
     let focuses = scene.caustic_aim.is_some();

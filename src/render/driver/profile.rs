@@ -19,10 +19,10 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// All, in the order of the profile.
+    /// All phases, in the order of the profile.
     pub const ALL: [Self; 5] = [Self::Pilot, Self::Camera, Self::Light, Self::Merging, Self::Deciding];
 
-    /// Its name.
+    /// Returns the name of the phase.
     pub fn name(self) -> &'static str {
         ["pilot", "camera", "light", "merging", "deciding"][self as usize]
     }
@@ -35,12 +35,12 @@ pub struct Profile {
     pub phases: [Duration; Phase::ALL.len()],
     /// Rays traced in each phase.
     pub rays: [u64; Phase::ALL.len()],
-    /// What was timed of single rays.
+    /// Times of single rays.
     pub intersections: TimedRays,
 }
 
 impl Profile {
-    /// Books some work.
+    /// Adds the time and the rays of some work to its phase.
     pub(crate) fn book(&mut self, phase: Phase, time: Duration, rays: u64) {
         self.phases[phase as usize] += time;
         self.rays[phase as usize] += rays;

@@ -17,9 +17,9 @@ pub struct Segment {
     first_light_path: u64,
     /// Light paths for each sample of a pixel, all pixels taken together.
     light_paths_per_sample: f64,
-    /// What each light path counts: all of a segment count as many as its camera paths.
+    /// Weight of each light path, by which those of a segment count as much as its camera paths.
     pub light_weight: f64,
-    /// Merging that is done before.
+    /// Passes of merging that earlier segments have done, with the share of the next that is due.
     merged_before: f64,
     merge_passes_per_sample: f64,
 }
@@ -43,7 +43,7 @@ impl Work {
 }
 
 impl Segment {
-    /// The segment up to sample `end`, from where the work has come to.
+    /// Makes the segment that goes from the work done so far to sample `end`.
     pub fn new(done: Work, end: u64, pixels: u64, allocation: Allocation) -> Self {
         Self {
             samples: done.samples..end,
@@ -60,7 +60,7 @@ impl Segment {
         samples - self.samples.start
     }
 
-    /// The work of all techniques up to some samples.
+    /// Returns the work of all techniques that belongs to some samples a pixel.
     pub fn work(&self, samples: u64) -> Work {
         let taken = self.taken(samples) as f64;
         Work {
@@ -71,7 +71,7 @@ impl Segment {
     }
 }
 
-/// Where the segment ends that follows `done` samples.
+/// Returns the sample at which the segment ends that starts after `done` samples.
 pub fn segment_end(done: u64) -> u64 {
     let mut end = FIRST_SEGMENT;
     while end <= done {

@@ -12,7 +12,7 @@ use std::time::Instant;
 /// Work done so far, and what it has shown.
 #[derive(Default)]
 pub struct RenderState {
-    /// Work of all techniques.
+    /// Work that all techniques have done.
     pub done: Work,
     /// The segment under way.
     pub segment: Segment,
@@ -22,11 +22,11 @@ pub struct RenderState {
     pub merging: MergeState,
     /// Passes of merging at the last mark on the film.
     pub marked_passes: u64,
-    /// What each technique has cost.
+    /// Rays that each technique has traced.
     pub spent: Spent,
     /// Samples of the next pass.
     pub at_once: u64,
-    /// What a sample takes in seconds.
+    /// Seconds that a sample of all pixels takes.
     pub seconds_per_sample: f64,
     /// The last bound of the relMSE.
     pub error_bound: Option<f64>,
@@ -60,7 +60,7 @@ impl RenderState {
         }
     }
 
-    /// Books the time since `started` and the rays of some work, and tells the rays.
+    /// Adds the time since `started` and the counts of some work to a phase. Returns the number of rays.
     pub fn book(&mut self, phase: Phase, started: Instant, count: Counters) -> u64 {
         self.counters.add(count);
         self.profile.book(phase, started.elapsed(), count.rays);

@@ -5,7 +5,7 @@ use crate::render::timing::TimedRays;
 use crate::scene::{Scene, Surface};
 use crate::spectrum::LANES;
 
-/// Things that are counted.
+/// Counts of rays and of what befalls paths.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Counters {
     /// Rays traced: segments of paths and shadow rays.
@@ -14,20 +14,14 @@ pub struct Counters {
     pub shadow_rays: u64,
     /// Segments of paths that all lanes share.
     pub shared_segments: u64,
-    /// What tracing takes.
+    /// The time that tracing takes, measured on a few of the rays.
     pub timed: TimedRays,
     /// Rays that left a transparent object they had not entered.
     pub medium_underflows: u64,
 }
 
 impl Counters {
-    /// Adds another thread's, and tells its rays.
-    pub fn count(&mut self, other: Self) -> u64 {
-        self.add(other);
-        other.rays
-    }
-
-    /// Adds another thread's.
+    /// Adds what another thread, or another piece of work, has counted.
     pub fn add(&mut self, other: Self) {
         self.rays += other.rays;
         self.shadow_rays += other.shadow_rays;
@@ -36,7 +30,7 @@ impl Counters {
         self.medium_underflows += other.medium_underflows;
     }
 
-    /// Mean share of lanes that go along with a segment of a path; 1 without segments.
+    /// Returns the mean share of the lanes that go along a segment of a path, or 1 if there are no segments.
     pub fn lane_occupancy(&self) -> f64 {
         let segments = self.rays - self.shadow_rays;
         let alone = segments - self.shared_segments;
@@ -44,14 +38,14 @@ impl Counters {
         if segments > 0 { lanes / segments as f64 } else { 1.0 }
     }
 
-    /// The first surface along a ray, before `limit`.
+    /// Returns the first surface along a ray, before `limit`.
     #[inline]
     pub fn closest(&mut self, scene: &Scene, ray: &Ray, limit: f32) -> Option<Surface> {
         self.rays += 1;
         self.timed.time(self.rays, || scene.closest(ray, limit))
     }
 
-    /// Whether there is any surface along a ray, before `limit`.
+    /// Tells whether there is any surface along a ray, before `limit`.
     #[inline]
     pub fn occluded(&mut self, scene: &Scene, ray: &Ray, limit: f32) -> bool {
         self.rays += 1;

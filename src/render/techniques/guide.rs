@@ -13,17 +13,17 @@ const DEFENSIVE: f64 = 0.2;
 #[derive(Debug, Clone)]
 pub struct Guide {
     lights: AliasTable,
-    /// One a light; `None` where every cell is as likely.
+    /// The grid of each light; `None` if all its cells are equally likely.
     grids: Vec<Option<GridDensity>>,
 }
 
 impl Guide {
-    /// Makes a guide that draws lights by a table and starts paths from them evenly.
+    /// Draws lights by a table and starts paths evenly: nothing is learnt yet.
     pub fn plain(lights: AliasTable, scene: &Scene) -> Self {
         Self { lights, grids: vec![None; scene.lights.len()] }
     }
 
-    /// Draws a light; its index is that of a [`LightId`].
+    /// Draws a light.
     pub fn sample_light(&self, u: f32) -> Option<Draw> {
         self.lights.sample(u)
     }
@@ -33,7 +33,7 @@ impl Guide {
         self.lights.probability(light as usize)
     }
 
-    /// Moves the guided one of two pairs of random numbers. Returns the density by which to divide.
+    /// Moves the guided one of two pairs of random numbers. Returns the density by which to divide the path's weight.
     pub fn warp(&self, LightId(light): LightId, pair: Option<GuidedPair>, u: &mut [f32; 2], v: &mut [f32; 2]) -> f32 {
         let (Some(grid), Some(pair)) = (&self.grids[light as usize], pair) else { return 1.0 };
         let numbers = match pair {
@@ -54,7 +54,7 @@ impl Guide {
 /// What a pilot saw of each light and cell, with the densities of the plain guide that it used.
 #[derive(Debug)]
 pub struct Experience {
-    /// Of each light: paths, and sum of squares of what they contributed, for each cell.
+    /// Cells of each light, each with its number of paths and the sum of squares of what they contributed.
     lights: Vec<Vec<[f64; 2]>>,
 }
 
@@ -72,7 +72,7 @@ impl Experience {
         cell[1] += square;
     }
 
-    /// Makes the best guide for what was seen, mixed with a defensive share: variance is least with densities in proportion
+    /// The best densities for what was seen, mixed with a defensive share: variance is least with densities in proportion
     /// to root mean squares.
     pub fn guide(&self, plain: &Guide, scene: &Scene) -> Guide {
         let mut grids = Vec::new();
@@ -101,13 +101,13 @@ impl Experience {
     }
 }
 
-/// Densities of mean 1 in proportion to some weights, mixed with the constant.
+/// Returns densities of mean 1 in proportion to some weights, mixed with a constant density.
 fn defensive(weights: &[f64]) -> Vec<f64> {
     let mean = weights.iter().sum::<f64>() / weights.len() as f64;
     weights.iter().map(|w| if mean > 0.0 { DEFENSIVE + (1.0 - DEFENSIVE) * w / mean } else { 1.0 }).collect()
 }
 
-/// Probabilities in proportion to some weights, mixed with others.
+/// Returns probabilities in proportion to some weights, mixed with plain ones.
 fn defensive_over(weights: &[f64], plain: impl Fn(usize) -> f64) -> Vec<f64> {
     let total: f64 = weights.iter().sum();
     let learnt = |w: f64| if total > 0.0 { w / total } else { 0.0 };

@@ -2,6 +2,7 @@
 
 use super::camera::{camera_density, rough_camera_density};
 use super::guide::Guide;
+use super::start_numbers::LightNumbers;
 use super::table::{LightPathDensity, Techniques};
 use crate::bsdf::{Branching, Carried};
 use crate::film::{Filter, Sensor, Splats};
@@ -9,7 +10,7 @@ use crate::geometry::Ray;
 use crate::render::paths::{Encounter, Layout, Place, Scattering, TransportMode, Vertex, Walk, Workspace, adjoint};
 use crate::sampling::{Draw, balance_heuristic};
 use crate::scene::{Emission, GuidedPair, LightId, Scene, Surface};
-use crate::spectrum::{LANES, SampledSpectrum, Wavelengths};
+use crate::spectrum::{SampledSpectrum, Wavelengths};
 use glam::Vec3;
 
 /// How light paths are traced.
@@ -17,9 +18,9 @@ use glam::Vec3;
 pub struct LightTracer<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// Where they start.
+    /// Where light paths start.
     pub guide: &'a Guide,
-    /// Whether they are aimed at what can focus light and followed for what they own, see [`super::techniques`], or cover
+    /// Whether they are aimed at what can focus light and followed for what they own, see [`super::table`], or cover
     /// everything.
     pub caustics_only: bool,
     /// Where paths branch.
@@ -33,7 +34,7 @@ pub struct LightTracer<'a> {
 pub struct Start {
     /// Its light.
     pub light: LightId,
-    /// Where it left it.
+    /// Where and how it left the light.
     pub emission: Emission,
     /// The guided pair of random numbers, after the guide has moved it.
     pub numbers: [f32; 2],
@@ -41,7 +42,7 @@ pub struct Start {
     pub spectrum: SampledSpectrum,
     /// Power that it carries in each lane, before any scattering.
     pub power: SampledSpectrum,
-    /// Its wavelengths.
+    /// The wavelengths of its lanes.
     pub wavelengths: Wavelengths,
 }
 
@@ -64,9 +65,9 @@ pub enum First {
 /// A light path at a surface that is not specular.
 #[derive(Debug, Clone, Copy)]
 pub struct Arrival<'a> {
-    /// What it met before, and first.
+    /// What the path met first, before this surface.
     pub first: First,
-    /// Where it is.
+    /// The vertex at this surface.
     pub vertex: &'a Vertex<'a>,
     /// Two random numbers that nothing else uses.
     pub u: [f32; 2],
@@ -89,22 +90,24 @@ impl LightTracer<'_> {
         wavelengths: Option<Wavelengths>,
         collector: &mut impl Collector,
     ) {
-        // Point, wavelengths and direction first: that is where the picture of a caustic comes from.
+        // The light and the wavelengths.
         let scene = self.scene;
-        let u = place.sobol.group(place.index, 0);
-        let Some(Draw { index, probability, .. }) = self.guide.sample_light(u[5]) else { return };
+        let numbers = LightNumbers::of(place);
+        let Some(Draw { index, probability, .. }) = self.guide.sample_light(numbers.light) else { return };
         let id = LightId(index as u32);
         let light = scene.light(id);
-        let wavelengths = wavelengths.unwrap_or_else(|| light.wavelengths.sample(u[2]));
+        let wavelengths = wavelengths.unwrap_or_else(|| light.wavelengths.sample(numbers.wavelengths));
+
+        // The point and the direction in which the path leaves the light.
         let aim = if self.caustics_only { scene.caustic_aim } else { None }.unwrap_or(scene.everything());
-        let (mut point, mut direction) = ([u[0], u[1]], [u[3], u[4]]);
+        let LightNumbers { mut point, mut direction, .. } = numbers;
         let pair = light.guided_pair();
         let density = self.guide.warp(id, pair, &mut point, &mut direction);
         let Some(mut emission) = light.emit(scene, &aim, point, direction) else { return };
         emission.weight /= density;
-        workspace.spectra.begin(wavelengths);
-        let hero = (u[6] * LANES as f32) as usize;
 
+        // What the path carries from there.
+        workspace.spectra.begin(wavelengths);
         let origin = emission.start.origin(emission.direction);
         let inside = if INTERIORS && light.may_be_inside { scene.interiors_at(origin) } else { Vec::new() };
         workspace.interiors.reset(&inside);
@@ -118,7 +121,7 @@ impl LightTracer<'_> {
             emission,
         };
         let ray = Ray { origin, direction: emission.direction };
-        let carried = Carried::new(hero, self.branching);
+        let carried = Carried::new(numbers.hero, self.branching);
         let mut walk = Walk::start(scene, workspace, ray, TransportMode::Importance, carried, place);
         collector.leave::<INTERIORS>(&mut walk, &start);
         self.follow::<INTERIORS>(&mut walk, &start, First::Nothing, collector);
@@ -182,7 +185,7 @@ impl LightTracer<'_> {
         }
     }
 
-    /// Whether light paths find what arrives, by the table of [`super::techniques`].
+    /// Whether light paths find what arrives, by the table of [`super::table`].
     fn owns(&self, start: &Start, arrival: &Arrival) -> bool {
         let local = self.scene.light(start.light).is_local();
         !self.caustics_only
@@ -220,14 +223,14 @@ pub struct Splatter<'a> {
     pub splats: Splats,
     /// Light and guided numbers of the last path that left one.
     pub start: Option<(LightId, [f32; 2])>,
-    /// Of the path under way: see [`Techniques::light_path_density`].
+    /// Density of the path under way, see [`Techniques::light_path_density`].
     density: Option<LightPathDensity>,
-    /// The sensor's, at the wavelengths of the path under way.
+    /// The sensor's weights at the wavelengths of the path under way.
     weights: Vec<SampledSpectrum>,
 }
 
 impl<'a> Splatter<'a> {
-    /// With no splats yet.
+    /// Makes a collector without any splats yet.
     pub fn new(sensor: &'a Sensor, filter: &'a Filter, techniques: &'a Techniques) -> Self {
         let splats = Splats::new(sensor.channels());
         Self { sensor, filter, techniques, splats, start: None, density: None, weights: Vec::new() }

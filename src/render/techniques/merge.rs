@@ -29,7 +29,7 @@ pub struct Merging {
 /// Collects the photons of light paths.
 #[derive(Debug, Default)]
 pub struct PhotonCollector {
-    /// Photons so far.
+    /// Photons collected so far.
     pub photons: Vec<Photon>,
 }
 
@@ -94,7 +94,7 @@ pub fn follow_specular<const INTERIORS: bool>(
 }
 
 impl Merging {
-    /// Radius of a pass, from 0 on.
+    /// Returns the radius of a pass; passes count from 0.
     pub fn radius_of(&self, pass: u64) -> f32 {
         let shrunk: f64 = (1..=pass).map(|i| (i as f64 + ALPHA) / (i as f64 + 1.0)).product();
         self.radius * shrunk.sqrt() as f32

@@ -6,6 +6,7 @@ mod guide;
 mod light;
 mod merge;
 mod photons;
+mod start_numbers;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -15,4 +16,5 @@ pub use guide::{Experience, Guide};
 pub use light::{LightTracer, Splatter};
 pub use merge::{BLUR_DECAY, Merging, PhotonCollector, follow_specular};
 pub use photons::{Photon, PhotonMap};
+pub use start_numbers::CameraNumbers;
 pub use table::Techniques;

@@ -12,7 +12,7 @@ const SLAB: f32 = 0.2;
 /// Light that has arrived at a diffuse surface.
 #[derive(Debug, Clone, Copy)]
 pub struct Photon {
-    /// Where.
+    /// The point at which it arrived.
     pub position: Vec3,
     /// Geometric normal, on the side where it has come from.
     pub normal: Vec3,
@@ -27,7 +27,7 @@ pub struct Photon {
 }
 
 impl Photon {
-    /// Whether it belongs to the same piece of surface as a point near by.
+    /// Tells whether it belongs to the same piece of surface as a point near by.
     pub fn lies_on(&self, point: Vec3, normal: Vec3, radius: f32) -> bool {
         self.normal.dot(normal) > LEAST_COSINE && (self.position - point).dot(normal).abs() < SLAB * radius
     }
@@ -44,7 +44,7 @@ pub struct PhotonMap {
 }
 
 impl PhotonMap {
-    /// Of photons in a fixed order, to be looked up within a radius; `paths` is how many paths they came from.
+    /// Sorts photons that come in a fixed order and are to be looked up within a radius; `paths` is how many paths they came from.
     pub fn new(photons: Vec<Photon>, radius: f32, paths: u64) -> Self {
         let buckets = photons.len().next_power_of_two();
         let mut map = Self { photons: Vec::new(), starts: vec![0; buckets + 1], radius, paths };
@@ -65,17 +65,17 @@ impl PhotonMap {
         map
     }
 
-    /// The radius.
+    /// Returns the radius within which photons are looked up.
     pub fn radius(&self) -> f32 {
         self.radius
     }
 
-    /// How many paths the photons came from.
+    /// Returns how many paths the photons came from.
     pub fn paths(&self) -> u64 {
         self.paths
     }
 
-    /// Calls for every photon within the radius, with its squared distance, in a fixed order.
+    /// Calls `visit` for every photon within the radius, with its squared distance, in a fixed order.
     pub fn near(&self, point: Vec3, mut visit: impl FnMut(&Photon, f32)) {
         if self.photons.is_empty() {
             return;

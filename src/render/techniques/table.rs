@@ -80,7 +80,7 @@ impl Techniques {
         }
     }
 
-    /// Where light paths start, if there are any.
+    /// Returns where light paths start, if there are any.
     pub fn guide(&self) -> Option<&Guide> {
         match self {
             Self::Path => None,

@@ -1,12 +1,13 @@
 //! Tests of what branches of camera paths bring together.
 
 use super::camera::radiance;
+use super::start_numbers::CameraNumbers;
 use super::table::Techniques;
 use crate::bsdf::{Branching, Carried, NEVER, Parting};
 use crate::render::paths::{Place, TransportMode, Walk, Workspace};
 use crate::sampling::{Sobol, mix};
 use crate::scene::{Compiled, Scene};
-use crate::spectrum::{LANES, SampledSpectrum};
+use crate::spectrum::SampledSpectrum;
 use std::path::Path;
 
 /// Radiance that arrives along the first camera path of a sequence, somewhere in a film of 16 × 16 pixels.
@@ -17,12 +18,12 @@ fn traced(
     carried: impl FnOnce(usize) -> Carried,
     max_depth: u32,
 ) -> SampledSpectrum {
-    let u = sobol.group(0, 0);
-    let ray = scene.camera.ray([16.0 * u[0], 16.0 * u[1]], [0.5; 2]);
-    workspace.spectra.begin(scene.wavelengths.sample(u[2]));
-    workspace.interiors.reset(&[]);
-    let carried = carried((u[5] * LANES as f32) as usize);
     let place = Place { sobol, index: 0 };
+    let numbers = CameraNumbers::of(place);
+    let ray = scene.camera.ray(numbers.film.map(|u| 16.0 * u), [0.5; 2]);
+    workspace.spectra.begin(scene.wavelengths.sample(numbers.wavelengths));
+    workspace.interiors.reset(&[]);
+    let carried = carried(numbers.hero);
     let mut walk = Walk::start(scene, workspace, ray, TransportMode::Radiance, carried, place);
     radiance::<true>(&mut walk, &Techniques::Path, max_depth)
 }
