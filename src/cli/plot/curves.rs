@@ -21,12 +21,12 @@ pub fn draw(plot: &Plot, canvas: &mut Canvas) {
     let x = Scale::new(RANGE_NM, CURVES_X);
     let y = Scale::new(ticks.range(), [PANEL_Y[1], PANEL_Y[0]]);
     axes(plot, canvas, &x, &y, &ticks);
-    if let Some((name, lamp)) = &plot.lamp {
-        draw_lamp(canvas, name, lamp, &x, &y);
-    }
     let is_alone = plot.curves.len() == 1;
     if is_alone {
         rainbow(canvas, plot.observer, &outline(&tables[0], &x, &y), y.at(ticks.range()[0].max(0.0)));
+    }
+    if let Some((name, lamp)) = &plot.lamp {
+        draw_lamp(canvas, name, lamp, &x, &y);
     }
     for (i, (curve, table)) in plot.curves.iter().zip(&tables).enumerate() {
         let line = match (is_alone, plot.are_named()) {

@@ -5,10 +5,10 @@ use super::camera_path::{CameraSample, camera_sample};
 use super::job::Job;
 use super::schedule::Segment;
 use super::streams::render_seed;
+use super::threads::in_parallel;
 use super::tiles::{camera_tiles, on_film};
 use crate::film::{CAMERA_REPLICATES, CameraTile, Film, SamplePlace};
 use crate::render::paths::{Counters, Workspace};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Tiles that are worked on before they add to the film.
@@ -21,7 +21,6 @@ pub const ROUND: u64 = CAMERA_REPLICATES as u64;
 struct TileResult {
     sums: CameraTile,
     squares: Vec<Square>,
-    counters: Counters,
 }
 
 /// What was done in the square of a pixel.
@@ -46,15 +45,11 @@ pub fn camera_pass<const INTERIORS: bool>(
     for first in samples.clone().step_by(ROUND as usize) {
         let round = first..(first + ROUND).min(samples.end);
         for tiles in tiles.chunks(TILES_AT_ONCE) {
-            let results: Vec<TileResult> = tiles
-                .into_par_iter()
-                .map_init(
-                    || Workspace::new(job.scene),
-                    |workspace, tile| camera_tile(job, workspace, tile.clone(), &round, segment, adaptive.as_ref()),
-                )
-                .collect();
+            let (results, count) = in_parallel(job.scene, tiles, |workspace, tile| {
+                camera_tile(job, workspace, tile.clone(), &round, segment, adaptive.as_ref())
+            });
             add_results(film, adaptive, &results);
-            results.iter().for_each(|result| counters.add(result.counters));
+            counters.add(count);
         }
     }
     counters
@@ -69,7 +64,6 @@ fn camera_tile<const INTERIORS: bool>(
     segment: &Segment,
     adaptive: Option<&Adaptive>,
 ) -> TileResult {
-    workspace.counters = Counters::default();
     let reach = job.filter_reach();
     let size = [columns.len() as u32, rows.len() as u32];
     let mut sums = CameraTile::new([columns.start, rows.start], size, reach, job.film.sensor.channels());
@@ -91,7 +85,7 @@ fn camera_tile<const INTERIORS: bool>(
         let (samples, rays) = (samples.end - samples.start, workspace.counters.rays - rays);
         squares.push(Square { pixel, samples, rays });
     }
-    TileResult { sums, squares, counters: workspace.counters }
+    TileResult { sums, squares }
 }
 
 /// Adds what was found in some tiles to the film, and what it has cost to what adaptive sampling knows.

@@ -3,10 +3,10 @@
 use super::blocks::{BLOCK, blocks_of, replicate_of};
 use super::job::Job;
 use super::streams::{Stream, render_seed};
+use super::threads::in_parallel;
 use crate::film::{Film, LIGHT_REPLICATES, Splats};
 use crate::render::paths::{Counters, Place, Workspace};
 use crate::render::techniques::{LightTracer, Splatter, Techniques};
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Blocks that are traced before their splats go to the film, in order.
@@ -21,25 +21,18 @@ pub fn light_pass<const INTERIORS: bool>(
 ) -> Counters {
     let mut counters = Counters::default();
     for blocks in blocks_of(paths).chunks(BLOCKS_AT_ONCE) {
-        let results: Vec<(Splats, Counters)> = blocks
-            .into_par_iter()
-            .map_init(|| Workspace::new(job.scene), |workspace, block| light_block(job, workspace, block.clone()))
-            .collect();
-        for (block, (splats, count)) in blocks.iter().zip(results) {
+        let (results, count) =
+            in_parallel(job.scene, blocks, |workspace, block| light_block(job, workspace, block.clone()));
+        for (block, splats) in blocks.iter().zip(results) {
             film.add_splats(replicate_of(block), block.end - block.start, weight, &splats);
-            counters.add(count);
         }
+        counters.add(count);
     }
     counters
 }
 
 /// Traces the light paths of one block: replicates have blocks in turns, each with a sequence of its own.
-fn light_block<const INTERIORS: bool>(
-    job: &Job<INTERIORS>,
-    workspace: &mut Workspace,
-    paths: Range<u64>,
-) -> (Splats, Counters) {
-    workspace.counters = Counters::default();
+fn light_block<const INTERIORS: bool>(job: &Job<INTERIORS>, workspace: &mut Workspace, paths: Range<u64>) -> Splats {
     let stream = Stream::Light { replicate: replicate_of(&paths) as u8 };
     let sobol = stream.sequence(render_seed(job.settings.seed));
     let tracer = light_tracer(job);
@@ -49,7 +42,7 @@ fn light_block<const INTERIORS: bool>(
         let place = Place { sobol, index: before + path % BLOCK };
         tracer.trace::<INTERIORS>(workspace, place, None, &mut splatter);
     }
-    (splatter.splats, workspace.counters)
+    splatter.splats
 }
 
 /// Makes the tracer of light paths that the plan asks for.

@@ -3,17 +3,17 @@
 use super::camera_path::{CameraStart, camera_walk, offset_by_filter};
 use super::job::Job;
 use super::streams::{Stream, render_seed};
+use super::threads::in_parallel;
 use super::tiles::{column_and_row, tile_pixels, tiles};
 use crate::bsdf::{Branching, Parting};
 use crate::film::{Film, LIGHT_REPLICATES, Splats};
 use crate::render::paths::{Counters, Place, Vertex, Walk, Workspace};
 use crate::render::techniques::{
-    CameraNumbers, LightTracer, Merging, Photon, PhotonCollector, PhotonMap, follow_specular, radiance_ratio,
+    CameraNumbers, LightTracer, Merging, PhotonCollector, PhotonMap, follow_specular, radiance_ratio,
 };
 use crate::sampling::mix;
 use crate::scene::MediumId;
 use crate::spectrum::{SampledSpectrum, Wavelengths};
-use rayon::prelude::*;
 
 /// First radius, in widths of a pixel where photons are seen.
 const FIRST_RADIUS_PIXELS: f32 = 3.0;
@@ -33,12 +33,11 @@ struct MergedTile {
     splats: Splats,
     /// Each pixel that was looked at, with whether there was a surface to merge on.
     looked_at: Vec<(u32, bool)>,
-    counters: Counters,
 }
 
 impl MergedTile {
     fn new(channels: usize) -> Self {
-        Self { splats: Splats::new(channels), looked_at: Vec::new(), counters: Counters::default() }
+        Self { splats: Splats::new(channels), looked_at: Vec::new() }
     }
 }
 
@@ -96,28 +95,21 @@ pub fn merge_pass<const INTERIORS: bool>(
     let mut weights = Vec::new();
     job.film.sensor.weights(&wavelengths, &mut weights);
     let weights = weights.as_slice();
-    let results: Vec<MergedTile> = tiles(job.film)
-        .into_par_iter()
-        .map_init(
-            || Workspace::new(job.scene),
-            |workspace, tile| {
-                workspace.counters = Counters::default();
-                let pixels = tile_pixels(tile, job.film.width, job.film.height);
-                let mut tile = MergedTile::new(weights.len());
-                for pixel in pixels {
-                    let Some(weight) = look_at(job, all[pixel as usize], pixel, pass) else { continue };
-                    let (radiance, seen) = merge_pixel(job, workspace, &map, pixel, pass, wavelengths, weight);
-                    tile.splats.begin(weights, radiance);
-                    tile.splats.share(pixel, 1.0);
-                    tile.looked_at.push((pixel, seen));
-                }
-                MergedTile { counters: workspace.counters, ..tile }
-            },
-        )
-        .collect();
+    let (results, count) = in_parallel(job.scene, tiles(job.film), |workspace, tile| {
+        let pixels = tile_pixels(tile, job.film.width, job.film.height);
+        let mut tile = MergedTile::new(weights.len());
+        for pixel in pixels {
+            let Some(weight) = look_at(job, all[pixel as usize], pixel, pass) else { continue };
+            let (radiance, seen) = merge_pixel(job, workspace, &map, pixel, pass, wavelengths, weight);
+            tile.splats.begin(weights, radiance);
+            tile.splats.share(pixel, 1.0);
+            tile.looked_at.push((pixel, seen));
+        }
+        tile
+    });
+    counters.add(count);
     let mut merged = Splats::new(weights.len());
     for tile in results {
-        counters.add(tile.counters);
         merged.append(tile.splats);
         tile.looked_at.into_iter().for_each(|(pixel, seen)| state.seen[pixel as usize] |= seen);
     }
@@ -152,28 +144,15 @@ fn photon_map<const INTERIORS: bool>(
     };
     let sobol = Stream::Photons.sequence(render_seed(job.settings.seed));
     let first = pass * merging.photon_paths;
-    let results: Vec<(Vec<Photon>, Counters)> = (0..merging.photon_paths / BLOCK)
-        .into_par_iter()
-        .map_init(
-            || Workspace::new(job.scene),
-            |workspace, block| {
-                workspace.counters = Counters::default();
-                let mut collector = PhotonCollector::default();
-                for index in first + block * BLOCK..first + (block + 1) * BLOCK {
-                    let place = Place { sobol, index };
-                    tracer.trace::<INTERIORS>(workspace, place, Some(wavelengths), &mut collector);
-                }
-                (collector.photons, workspace.counters)
-            },
-        )
-        .collect();
-    let mut counters = Counters::default();
-    let mut photons = Vec::new();
-    for (block, count) in results {
-        counters.add(count);
-        photons.extend(block);
-    }
-    (PhotonMap::new(photons, merging.radius_of(pass), merging.photon_paths), counters)
+    let (photons, counters) = in_parallel(job.scene, 0..merging.photon_paths / BLOCK, |workspace, block| {
+        let mut collector = PhotonCollector::default();
+        for index in first + block * BLOCK..first + (block + 1) * BLOCK {
+            let place = Place { sobol, index };
+            tracer.trace::<INTERIORS>(workspace, place, Some(wavelengths), &mut collector);
+        }
+        collector.photons
+    });
+    (PhotonMap::new(photons.concat(), merging.radius_of(pass), merging.photon_paths), counters)
 }
 
 /// Returns the radiance that the photons add to a pixel, and whether there was a surface to merge on.

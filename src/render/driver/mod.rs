@@ -17,6 +17,7 @@ mod schedule;
 mod state;
 mod stopping;
 mod streams;
+mod threads;
 mod tiles;
 
 pub use outcome::{Progress, Rendering, Statistics};

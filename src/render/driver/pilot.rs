@@ -7,14 +7,14 @@ use super::job::Job;
 use super::light_pass::light_tracer;
 use super::plan::Plan;
 use super::streams::pilot_seed;
+use super::threads::in_parallel;
 use super::tiles::column_and_row;
 use crate::bsdf::{Branching, Parting};
 use crate::film::{Filter, Splats, Xyz, value};
-use crate::render::paths::{Counters, Place, Workspace};
+use crate::render::paths::{Counters, Place};
 use crate::render::techniques::{Experience, LightTracer, Splatter, Techniques};
 use crate::sampling::{Sobol, mix};
 use crate::scene::{FilmSettings, LightId, Scene};
-use rayon::prelude::*;
 
 /// Numbers of ways that are tried. Eight have been the best nowhere, and to try them would cost as much as all others.
 const WAYS: [u8; 3] = [1, 2, 4];
@@ -32,16 +32,16 @@ const LARGEST_VARIANCE: f64 = 64.0;
 /// Cost of a path beside that of its rays, in units of a ray.
 const COST_OF_A_PATH: f64 = 1.0;
 
-/// A trial of camera paths: the values of all samples, square by square, and the rays that they took.
+/// A trial of camera paths: the values of all samples, square by square, and what was counted.
 struct CameraTrial {
     squares: Vec<[Xyz; SAMPLES as usize]>,
-    rays: u64,
+    counters: Counters,
 }
 
-/// A trial of light paths, and the rays that they took.
+/// A trial of light paths, and what was counted.
 struct LightTrial {
     paths: Vec<LightTrialPath>,
-    rays: u64,
+    counters: Counters,
 }
 
 /// A light path of a trial.
@@ -76,8 +76,8 @@ impl Brightness {
     }
 }
 
-/// Improves the plan of a job by a pilot, if one pays. Returns the rays that it took.
-pub fn run_pilot<const INTERIORS: bool>(job: &mut Job<INTERIORS>) -> u64 {
+/// Improves the plan of a job by a pilot, if one pays. Returns what was counted meanwhile.
+pub fn run_pilot<const INTERIORS: bool>(job: &mut Job<INTERIORS>) -> Counters {
     let dispersion = job.scene.features.dispersion;
     let bundles = dispersion && matches!(job.plan.camera.parting, Parting::Ways(_));
     let (light, pays) = match job.plan.techniques {
@@ -86,7 +86,7 @@ pub fn run_pilot<const INTERIORS: bool>(job: &mut Job<INTERIORS>) -> u64 {
         Techniques::Light { .. } => (false, false),
     };
     if !pays || job.settings.samples_per_pixel < LEAST_SAMPLES {
-        return 0;
+        return Counters::default();
     }
 
     // The trials.
@@ -106,7 +106,9 @@ pub fn run_pilot<const INTERIORS: bool>(job: &mut Job<INTERIORS>) -> u64 {
         job.plan.light.parting = Parting::Ways(ways[best_light]);
         learn_guide(job.scene, &mut job.plan, &lights, &brightness);
     }
-    camera.iter().map(|t| t.rays).chain(lights.iter().map(|t| t.rays)).sum()
+    let mut counters = Counters::default();
+    camera.iter().map(|t| t.counters).chain(lights.iter().map(|t| t.counters)).for_each(|count| counters.add(count));
+    counters
 }
 
 /// Learns from the trials where light paths should start.
@@ -136,33 +138,25 @@ fn pilot_pixel(film: &FilmSettings, square: u32) -> u32 {
 /// Traces a few camera paths in each square, whose lanes part into so many ways.
 fn camera_trial<const INTERIORS: bool>(job: &Job<INTERIORS>, ways: u8) -> CameraTrial {
     let [across, down] = squares(job.film);
-    let rows: Vec<(Vec<[Xyz; SAMPLES as usize]>, u64)> = (0..down)
-        .into_par_iter()
-        .map_init(
-            || Workspace::new(job.scene),
-            |workspace, row| {
-                workspace.counters = Counters::default();
-                let mut weights = Vec::new();
-                let squares = (0..across).map(|column| {
-                    let pixel = pilot_pixel(job.film, row * across + column);
-                    std::array::from_fn(|sample| {
-                        let branching = Branching { parting: Parting::Ways(ways), ..job.plan.camera };
-                        let (seed, at) = (pilot_seed(job.settings.seed), column_and_row(job.film, pixel));
-                        let found = camera_sample(job, workspace, at, sample as u64, seed, branching);
-                        if found.radiance.is_zero() {
-                            return Xyz::default();
-                        }
-                        job.film.sensor.weights(&found.wavelengths, &mut weights);
-                        let xyz: Xyz = std::array::from_fn(|c| value(weights[c], found.radiance));
-                        if xyz.iter().all(|v| v.is_finite()) { xyz } else { Xyz::default() }
-                    })
-                });
-                (squares.collect(), workspace.counters.rays)
-            },
-        )
-        .collect();
-    let rays = rows.iter().map(|(_, rays)| rays).sum();
-    CameraTrial { squares: rows.into_iter().flat_map(|(squares, _)| squares).collect(), rays }
+    let branching = Branching { parting: Parting::Ways(ways), ..job.plan.camera };
+    let (rows, counters) = in_parallel(job.scene, 0..down, |workspace, row| {
+        let mut weights = Vec::new();
+        let squares = (0..across).map(|column| {
+            let pixel = pilot_pixel(job.film, row * across + column);
+            std::array::from_fn(|sample| {
+                let (seed, at) = (pilot_seed(job.settings.seed), column_and_row(job.film, pixel));
+                let found = camera_sample(job, workspace, at, sample as u64, seed, branching);
+                if found.radiance.is_zero() {
+                    return Xyz::default();
+                }
+                job.film.sensor.weights(&found.wavelengths, &mut weights);
+                let xyz: Xyz = std::array::from_fn(|c| value(weights[c], found.radiance));
+                if xyz.iter().all(|v| v.is_finite()) { xyz } else { Xyz::default() }
+            })
+        });
+        squares.collect::<Vec<_>>()
+    });
+    CameraTrial { squares: rows.concat(), counters }
 }
 
 /// Traces light paths whose lanes part into so many ways.
@@ -170,32 +164,22 @@ fn light_trial<const INTERIORS: bool>(job: &Job<INTERIORS>, ways: u8) -> LightTr
     let blocks = block_count((job.scene.camera.pixels() / 2).clamp(1, LIGHT_PATHS));
     let filter = Filter::boxed(0.5);
     let sobol = Sobol::new(mix(pilot_seed(job.settings.seed) ^ u64::from(ways)));
-    let results: Vec<(Vec<LightTrialPath>, u64)> = (0..blocks)
-        .into_par_iter()
-        .map_init(
-            || Workspace::new(job.scene),
-            |workspace, index| {
-                workspace.counters = Counters::default();
-                let branching = Branching { parting: Parting::Ways(ways), ..job.plan.light };
-                let tracer = LightTracer { branching, ..light_tracer(job) };
-                let mut splatter = Splatter::new(&job.film.sensor, &filter, &job.plan.techniques);
-                let paths = block(index)
-                    .filter_map(|index| {
-                        splatter.start = None;
-                        let place = Place { sobol, index };
-                        tracer.trace::<INTERIORS>(workspace, place, None, &mut splatter);
-                        let (light, numbers) = splatter.start?;
-                        let hits = hits_of(&splatter.splats);
-                        splatter.splats.clear();
-                        Some(LightTrialPath { light, numbers, hits })
-                    })
-                    .collect();
-                (paths, workspace.counters.rays)
-            },
-        )
-        .collect();
-    let rays = results.iter().map(|(_, rays)| rays).sum();
-    LightTrial { paths: results.into_iter().flat_map(|(paths, _)| paths).collect(), rays }
+    let branching = Branching { parting: Parting::Ways(ways), ..job.plan.light };
+    let tracer = LightTracer { branching, ..light_tracer(job) };
+    let (paths, counters) = in_parallel(job.scene, 0..blocks, |workspace, index| {
+        let mut splatter = Splatter::new(&job.film.sensor, &filter, &job.plan.techniques);
+        let path = |index| {
+            splatter.start = None;
+            let place = Place { sobol, index };
+            tracer.trace::<INTERIORS>(workspace, place, None, &mut splatter);
+            let (light, numbers) = splatter.start?;
+            let hits = hits_of(&splatter.splats);
+            splatter.splats.clear();
+            Some(LightTrialPath { light, numbers, hits })
+        };
+        block(index).filter_map(path).collect::<Vec<_>>()
+    });
+    LightTrial { paths: paths.into_iter().flatten().collect(), counters }
 }
 
 /// Lists the pixels that get something, each with what it gets.
@@ -240,7 +224,7 @@ impl CameraTrial {
     }
 
     fn cost_of_a_path(&self) -> f64 {
-        COST_OF_A_PATH + self.rays as f64 / (self.squares.len() as u64 * SAMPLES) as f64
+        COST_OF_A_PATH + self.counters.rays as f64 / (self.squares.len() as u64 * SAMPLES) as f64
     }
 }
 
@@ -252,7 +236,7 @@ impl LightTrial {
     }
 
     fn cost_of_a_path(&self) -> f64 {
-        COST_OF_A_PATH + self.rays as f64 / self.paths.len().max(1) as f64
+        COST_OF_A_PATH + self.counters.rays as f64 / self.paths.len().max(1) as f64
     }
 }
 

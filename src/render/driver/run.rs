@@ -50,7 +50,7 @@ fn plan_and_render<const INTERIORS: bool>(
         state.counters.add(count);
         job.plan.set_merging(merging);
     }
-    state.counters.rays += run_pilot(&mut job);
+    state.counters.add(run_pilot(&mut job));
     state.profile.book(Phase::Pilot, started.elapsed(), state.counters.rays);
     render(job, state, proceed)
 }

@@ -15,6 +15,6 @@ pub use camera::{radiance, radiance_ratio};
 pub use guide::{Experience, Guide};
 pub use light::{LightTracer, Splatter};
 pub use merge::{BLUR_DECAY, Merging, PhotonCollector, follow_specular};
-pub use photons::{Photon, PhotonMap};
+pub use photons::PhotonMap;
 pub use start_numbers::CameraNumbers;
 pub use table::Techniques;
