@@ -84,7 +84,7 @@ impl ErrorKind {
 ///     "scenes/x.json: materials.glass.ior.glass: unknown glass \"N-SF12\"; did you mean \"N-SF11\"?"
 /// );
 /// ```
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Error {
     /// What went wrong.
     pub kind: ErrorKind,
@@ -142,9 +142,35 @@ impl Error {
     }
 }
 
-/// The candidate most similar to `name` (case ignored), or `None` when nothing is similar.
+/// Names by which other programs know things, each with abbe's.
+const ELSEWHERE: [(&str, &str); 16] = [
+    ("ball", "sphere"),
+    ("cube", "box"),
+    ("eye", "from"),
+    ("fov", "fov_degrees"),
+    ("glass", "dielectric"),
+    ("lambertian", "diffuse"),
+    ("look_at", "to"),
+    ("matte", "diffuse"),
+    ("metal", "conductor"),
+    ("obj", "mesh"),
+    ("origin", "from"),
+    ("plane", "quad"),
+    ("ply", "mesh"),
+    ("rectangle", "quad"),
+    ("spp", "samples_per_pixel"),
+    ("sun", "directional"),
+];
+
+/// Returns the candidate that is meant by `name` in other programs, or else the one most similar to it (case ignored);
+/// `None` when nothing is similar.
 pub fn nearest_name<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = name.to_lowercase();
+    let candidates: Vec<&str> = candidates.into_iter().collect();
+    let here = ELSEWHERE.iter().find(|(elsewhere, _)| *elsewhere == lower).map(|(_, here)| here);
+    if let Some(candidate) = candidates.iter().find(|candidate| Some(*candidate) == here) {
+        return Some(candidate);
+    }
     candidates
         .into_iter()
         .map(|candidate| (strsim::jaro_winkler(&lower, &candidate.to_lowercase()), candidate))
@@ -169,4 +195,37 @@ impl fmt::Display for Error {
     }
 }
 
+/// Prints as [`Display`](fmt::Display) does: a `main` that returns a [`crate::Result`] shows its error by this.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
 impl std::error::Error for Error {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_other_programs_are_understood() {
+        let shapes = ["sphere", "triangles", "quad", "box"];
+        assert_eq!(nearest_name("Rectangle", shapes), Some("quad"));
+        assert_eq!(nearest_name("plane", shapes), Some("quad"));
+        assert_eq!(nearest_name("triangle", shapes), Some("triangles"));
+        assert_eq!(nearest_name("glass", ["diffuse", "dielectric"]), Some("dielectric"));
+        assert_eq!(nearest_name("fov", ["fov_axis", "fov_degrees"]), Some("fov_degrees"));
+        assert_eq!(
+            nearest_name("metal", ["metal_name", "wood"]),
+            Some("metal_name"),
+            "abbe's name is no candidate here"
+        );
+    }
+
+    #[test]
+    fn a_main_that_fails_shows_the_message() {
+        let error = Error::unknown_name("lamp", "FL12x", ["FL12", "D65"]);
+        assert_eq!(format!("{error:?}"), error.to_string());
+    }
+}

@@ -41,6 +41,15 @@ fn pages(root: &Path) -> Vec<PathBuf> {
     pages
 }
 
+/// The README shows scenes/first.json, whose picture stands below it.
+#[test]
+fn the_first_scene_is_the_one_in_the_readme() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = blocks(&fs::read_to_string(root.join("README.md")).unwrap());
+    let first = fs::read_to_string(root.join("scenes/first.json")).unwrap();
+    assert_eq!(readme.iter().map(|(_, _, text)| text.trim()).collect::<Vec<_>>(), [first.trim()]);
+}
+
 #[test]
 fn scenes_in_the_documentation_compile() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));

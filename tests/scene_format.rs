@@ -176,3 +176,14 @@ fn tables_that_end_in_the_visible_and_unused_things_are_warned_of() {
     assert!(warnings[0].starts_with("folder/scene.json: spectra.red: the table covers 400–690 nm"));
     assert_eq!(warnings[1], "folder/scene.json: materials.gold: no object has this material");
 }
+
+/// Nothing gives light: a beginner's black picture is foretold.
+#[test]
+fn a_scene_without_light_is_warned_about() {
+    let dark = r#"{ "camera": { "type": "perspective", "from": [0, 0, 4], "to": [0, 0, 0] }, "film": { "width": 4, "height": 4 } }"#;
+    let warnings = |text: &str| abbe::scene::compile(&parse(text).description).unwrap().warnings;
+    let told = warnings(dark);
+    assert!(matches!(told.as_slice(), [only] if only.contains("nothing gives light")), "{told:?}");
+    let lit = dark.replace(r#""film""#, r#""environment": { "radiance": 1 }, "film""#);
+    assert!(warnings(&lit).is_empty());
+}

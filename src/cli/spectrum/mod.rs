@@ -156,13 +156,20 @@ impl Input {
     }
 }
 
+/// Columns that an error names at most.
+const SHOWN_COLUMNS: usize = 12;
+
 /// The columns of these names, in this order.
 fn chosen(spectra: Vec<NamedSpectrum>, names: &[String]) -> Result<Vec<NamedSpectrum>> {
     let find = |name: &String| {
         let found = spectra.iter().find(|spectrum| spectrum.name == *name).cloned();
         found.ok_or_else(|| {
-            let message = format!("no column {name:?}; expected one of its {}", spectra.len());
-            Error::new(ErrorKind::UnknownName, message).nearest(name, spectra.iter().map(|s| s.name.as_str()))
+            let known: Vec<&str> = spectra.iter().map(|s| s.name.as_str()).collect();
+            let shown = known[..known.len().min(SHOWN_COLUMNS)].join(", ");
+            let more =
+                if known.len() > SHOWN_COLUMNS { format!(", … ({} in all)", known.len()) } else { String::new() };
+            let message = format!("no column {name:?}; expected one of {shown}{more}");
+            Error::new(ErrorKind::UnknownName, message).nearest(name, known)
         })
     };
     names.iter().map(find).collect()

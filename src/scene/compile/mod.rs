@@ -91,6 +91,11 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
     let lights = lights::compile(&mut compiler, observer, &mut geometry, &solids)?;
     let Compiler { normalization, spectra, mut warnings, .. } = compiler;
     warnings.extend(spectra.take_warnings());
+    if lights.lights.is_empty() {
+        let missing =
+            "nothing gives light, so the picture is black; expected `lights`, an `environment` or an `emission`";
+        warnings.push(format!("{}: {missing}", description.file.display()));
+    }
     let features = SceneFeatures {
         dispersion: materials.media.iter().any(|m| m.dispersive),
         interiors: !materials.media.is_empty(),

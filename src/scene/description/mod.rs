@@ -40,6 +40,7 @@ pub use materials::{ConductorDescription, MaterialDescription, MaterialKind};
 pub use parse::{Parsed, parse_bytes, parse_file, parse_reader, parse_str};
 pub use reference::reference;
 pub use schema::schema;
+#[cfg(feature = "cli")]
 pub(crate) use settings::EXPOSURES_EV;
 pub use settings::{DevelopDescription, INTEGRATORS, RenderDescription};
 pub use shapes::{BrilliantDescription, ImplicitDescription, ShapeDescription};
