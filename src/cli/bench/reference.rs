@@ -11,6 +11,7 @@ use crate::cli::usage;
 use crate::io::exr::{self, Preference};
 use crate::io::output::write_atomically;
 use crate::metrics::{self, Pair};
+use crate::render::blind_spot;
 use crate::scene::{Integrator, RenderSettings};
 use crate::{Error, ErrorKind, Image, Result};
 use serde_json::{Value, json};
@@ -143,7 +144,7 @@ fn least_alike(session: &Session, work: &Work) -> (Integrator, &'static str) {
     };
     let all_trace_light =
         session.variants.iter().filter_map(settings).all(|integrator| integrator == Integrator::Light);
-    match (work.light_paths_see_all(), work.has_specular()) {
+    match (blind_spot(&work.compiled.scene, Integrator::Light).is_none(), work.has_specular()) {
         (true, _) if !all_trace_light => (Integrator::Light, "light paths see everything here"),
         (_, false) => (Integrator::Path, "camera paths see everything here; light paths do not, or are on test"),
         _ => (Integrator::Auto, "no technique but auto finds everything here: an error that auto has stays unseen"),
@@ -206,11 +207,8 @@ fn keep(reference: &Reference, path: &Path) -> Result<()> {
 
 /// Renders a reference: a pilot foretells how many samples make it good enough, and is not part of it.
 fn make(session: &Session, work: &Work, (integrator, why): (Integrator, &'static str)) -> Result<Reference> {
-    if integrator == Integrator::Light && !work.light_paths_see_all() {
-        session.say(&format!("warning: {}: light paths do not see all that this scene has", work.name));
-    }
-    if matches!(integrator, Integrator::Path | Integrator::Hero) && !work.camera_paths_see_all() {
-        session.say(&format!("warning: {}: camera paths do not see all that this scene has", work.name));
+    if let Some(what) = blind_spot(&work.compiled.scene, integrator) {
+        session.say(&format!("warning: {}: {what}", work.name));
     }
     let settings = RenderSettings { integrator, ..work.compiled.render };
     let spp = match session.args.reference_spp {

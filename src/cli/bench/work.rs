@@ -1,7 +1,7 @@
 //! A scene to render many times.
 
 use crate::cli::values::resolution as parse_resolution;
-use crate::scene::description::{self, LightKind, SceneDescription};
+use crate::scene::description;
 use crate::scene::{Compiled, compile};
 use crate::{Error, ErrorKind, Result, sampling};
 use std::path::{Path, PathBuf};
@@ -13,8 +13,6 @@ pub struct Work {
     pub name: String,
     /// The scene.
     pub compiled: Compiled,
-    /// Description that the scene was compiled from.
-    pub description: SceneDescription,
     /// Wall time of compiling the scene, seconds.
     pub compile_seconds: f64,
     /// Warnings of reading and compiling the scene, one line each.
@@ -37,29 +35,12 @@ impl Work {
         warnings.extend_from_slice(&compiled.warnings);
         let name = path.file_stem().map_or_else(|| "scene".into(), |stem| stem.to_string_lossy().into_owned());
         let content_hash = content_hash(path)?;
-        Ok(Self { name, compiled, description, compile_seconds, warnings, content_hash })
+        Ok(Self { name, compiled, compile_seconds, warnings, content_hash })
     }
 
     /// Width and height.
     pub fn size(&self) -> [u32; 2] {
         [self.compiled.film.width, self.compiled.film.height]
-    }
-
-    /// Whether camera paths can find everything: they miss caustics of lights without extent.
-    pub fn camera_paths_see_all(&self) -> bool {
-        let without_extent = |kind: &LightKind| match kind {
-            LightKind::Point { .. } | LightKind::Spot { .. } | LightKind::Beam { .. } => true,
-            LightKind::Directional { angular_diameter_degrees, .. } => *angular_diameter_degrees == 0.0,
-        };
-        !(self.has_specular() && self.description.lights.iter().any(|light| without_extent(&light.kind)))
-    }
-
-    /// Whether light paths can find everything: they miss what the camera sees in mirrors and through glass, and lights at
-    /// infinity that it sees.
-    pub fn light_paths_see_all(&self) -> bool {
-        let disc = |kind: &LightKind| matches!(kind, LightKind::Directional { angular_diameter_degrees, .. } if *angular_diameter_degrees > 0.0);
-        let infinite = self.description.environment.is_some() || self.description.lights.iter().any(|l| disc(&l.kind));
-        !self.has_specular() && !infinite
     }
 
     /// Whether there is anything that gathers light into caustics.

@@ -55,6 +55,9 @@ pub fn run(args: &ExportArgs, out: &mut dyn std::io::Write) -> Result<()> {
     }
     let parsed = description::parse_file(&args.scene)?;
     let compiled = compile(&parsed.description)?;
+    if args.output.as_os_str() == "-" {
+        return Err(Error::new(ErrorKind::Usage, "-o -: expected the name of a file, as meshes are put beside it"));
+    }
     let stem = args.output.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let stem = stem.ok_or_else(|| Error::new(ErrorKind::Usage, "-o: expected the name of a file"))?;
     let write = || -> Result<(String, Parts)> {

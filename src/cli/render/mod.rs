@@ -223,7 +223,10 @@ fn override_settings(description: &mut SceneDescription, args: &RenderArgs) -> R
     render.samples_per_pixel = args.spp.unwrap_or(render.samples_per_pixel);
     render.seed = args.seed.unwrap_or(render.seed);
     if let Some(name) = &args.observer {
-        description.film.observer = Observer::by_name(name).map_err(|e| e.at("--observer"))?.name().to_owned();
+        description.film.observer = Observer::by_name(name)
+            .map_err(|e| Error { kind: ErrorKind::Usage, ..e.at("--observer") })?
+            .name()
+            .to_owned();
     }
     if let Some(text) = &args.resolution {
         (description.film.width, description.film.height) = resolution(text)?;

@@ -91,12 +91,12 @@ fn tell_profile(rendering: &Rendering, compiling: Duration, writing: Duration) {
         .collect();
     let counters = &statistics.counters;
     eprintln!(
-        "time: {}; {:.0} % of the rays are shadow rays; lane occupancy {:.2}; a ray takes {:.0} ns to trace, {:.0} % of the CPU time",
+        "time: {}; {:.0} % of the rays are shadow rays; lane occupancy {:.2}; a ray takes {:.0} ns to trace{}",
         told.join(", "),
         100.0 * counters.shadow_rays as f64 / counters.rays.max(1) as f64,
         counters.lane_occupancy(),
         profile.intersections.seconds_per_ray() * 1e9,
-        100.0 * tracing_share(rendering).unwrap_or(f64::NAN),
+        tracing_share(rendering).map_or(String::new(), |share| format!(", {:.0} % of the CPU time", 100.0 * share)),
     );
 }
 
@@ -113,7 +113,7 @@ fn phases(profile: &Profile, compiling: Duration, writing: Duration) -> Vec<(&'s
 /// Share of the processor time that went into finding intersections, from the rays that were timed.
 fn tracing_share(rendering: &Rendering) -> Option<f64> {
     let seconds = rendering.profile.intersections.seconds_per_ray() * rendering.statistics.counters.rays as f64;
-    Some(seconds / process::cpu_seconds()?)
+    process::cpu_seconds().filter(|cpu| *cpu > 0.0).map(|cpu| seconds / cpu)
 }
 
 fn to_json(written: &Written, rendering: &Rendering, seconds: f64, writing: Duration) -> Value {

@@ -25,12 +25,21 @@ pub struct Lamp {
     pub spectrum: Spectrum,
 }
 
+/// Colder bodies do not glow: their blue is too little to adapt by.
+const COLDEST_KELVIN: f64 = 500.0;
+/// The hottest blackbody that scenes know as well.
+const HOTTEST_KELVIN: f64 = 1e9;
+
 impl Lamp {
     /// A CIE illuminant, a measured lamp, a blackbody (`2856K`), or a file with one spectrum.
     pub fn named(text: &str) -> Result<Self> {
         let at = |error: Error| error.at("--illuminant");
         let new = |spectrum| Self { name: text.to_owned(), spectrum };
         if let Some(kelvin) = text.strip_suffix(['K', 'k']).and_then(|number| number.trim().parse::<f64>().ok()) {
+            if !(COLDEST_KELVIN..=HOTTEST_KELVIN).contains(&kelvin) {
+                let message = format!("{text}: expected a temperature in [{COLDEST_KELVIN}, {HOTTEST_KELVIN:e}] K");
+                return Err(at(usage(message)));
+            }
             return Spectrum::blackbody(kelvin).map(new).map_err(at);
         }
         if let Ok(spectrum) = illuminant::by_name(text).or_else(|_| measured::lamp(text)) {

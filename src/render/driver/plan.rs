@@ -124,6 +124,9 @@ pub fn blind_spot(scene: &Scene, integrator: Integrator) -> Option<&'static str>
         Integrator::Light if focuses || !scene.infinite_lights.is_empty() => {
             Some("light paths miss what the camera sees in mirrors and through glass, and lights at infinity")
         }
+        Integrator::Light if scene.lights.iter().any(|light| !light.can_emit()) => {
+            Some("light paths do not start from emitting lenses, ellipsoids, sheared cylinders and implicit surfaces")
+        }
         _ => None,
     }
 }
