@@ -20,7 +20,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 MESH = "mesh"
 # Scene, resolution and samples that take about a second on one thread. On two, threads of one process share caches and
-# ranges are three times as wide.
+# ranges are wider.
 RUNS = [
     ("cornell", "144x144", 32),
     ("gem", "112x84", 32),
