@@ -247,6 +247,7 @@ fn a_light_can_be_a_file() {
         ("two.csv", ["two.csv: 2 spectra", "expected one"]),
         ("no.csv", ["no.csv: cannot be read", ""]),
         ("-3K", ["--illuminant: temperature -3 K", "expected a positive"]),
+        ("1K", ["--illuminant: temperature 1 K", "from 500 to 1e9"]),
     ] {
         folder.abbe(&["spectrum", "paint.csv", &format!("--illuminant={light}")]).fails(3, &parts);
     }

@@ -37,8 +37,8 @@ impl Lamp {
         let new = |spectrum| Self { name: text.to_owned(), spectrum };
         if let Some(kelvin) = text.strip_suffix(['K', 'k']).and_then(|number| number.trim().parse::<f64>().ok()) {
             if !(COLDEST_KELVIN..=HOTTEST_KELVIN).contains(&kelvin) {
-                let message = format!("{text}: expected a temperature in [{COLDEST_KELVIN}, {HOTTEST_KELVIN:e}] K");
-                return Err(at(usage(message)));
+                let expected = format!("expected a positive one from {COLDEST_KELVIN} to {HOTTEST_KELVIN:e}");
+                return Err(at(Error::new(ErrorKind::OutOfRange, format!("temperature {kelvin} K; {expected}"))));
             }
             return Spectrum::blackbody(kelvin).map(new).map_err(at);
         }
