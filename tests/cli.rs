@@ -558,3 +558,22 @@ fn version_and_help_go_to_stdout() {
     let run = folder.abbe(&["render", "--help"]);
     assert!(run.succeeds().out().contains("--spp") && run.err.is_empty());
 }
+
+/// A lamp that light paths cannot start from: no error tells of a picture that stays black, so none is aimed at.
+#[test]
+fn a_target_error_needs_lamps_that_light_paths_can_start_from() {
+    let folder = Folder::new();
+    let scene = r#"{ "camera": { "type": "perspective", "from": [1, 1.5, 6], "to": [0, 0, 0] }, "film": { "width": 8, "height": 6 },
+        "objects": [ { "shape": { "type": "cylinder", "radius": 0.3, "height": 0.8 }, "emission": 5,
+                       "transform": [ { "scale": [1, 1, 2] } ] } ] }"#;
+    folder.write("lamp.json", scene);
+    let aimed = ["render", "lamp.json", "-o", "a.exr", "--target-error", "0.1", "--integrator", "light"];
+    folder.abbe(&aimed).fails(2, &["--target-error: light paths do not start from"]);
+}
+
+#[test]
+fn names_and_outputs_that_lead_nowhere_are_errors_of_usage() {
+    let folder = Folder::with_scene();
+    folder.abbe(&["render", "scene.json", "-o", "a.exr", "--observer", "x"]).fails(2, &["--observer", "1931-2"]);
+    folder.abbe(&["scene", "export", "--format", "pbrt", "-o", "-", "scene.json"]).fails(2, &["-o -"]);
+}
