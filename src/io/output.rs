@@ -10,18 +10,13 @@ use std::path::Path;
 /// regular file, such as a pipe or a device, is written to as it is.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    match fs::metadata(&target) {
-        Ok(there) if !there.is_file() => fs::OpenOptions::new()
-            .write(true)
-            .open(&target)
-            .and_then(|mut file| file.write_all(bytes))
-            .map_err(|error| cannot_write(path, &error)),
-        _ => replace(&target, bytes).map_err(|error| cannot_write(path, &error)),
-    }
-}
-
-fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
-    Error::new(ErrorKind::Io, format!("cannot write: {error}")).in_file(path)
+    let written = match fs::metadata(&target) {
+        Ok(there) if !there.is_file() => {
+            fs::OpenOptions::new().write(true).open(&target).and_then(|mut file| file.write_all(bytes))
+        }
+        _ => replace(&target, bytes),
+    };
+    written.map_err(|error| Error::new(ErrorKind::Io, format!("cannot write: {error}")).in_file(path))
 }
 
 fn replace(path: &Path, bytes: &[u8]) -> std::io::Result<()> {

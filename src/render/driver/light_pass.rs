@@ -4,6 +4,7 @@ use super::blocks::{BLOCK, blocks_of, replicate_of};
 use super::job::Job;
 use super::streams::{Stream, render_seed};
 use super::threads::in_parallel;
+use crate::bsdf::Branching;
 use crate::film::{Film, LIGHT_REPLICATES, Splats};
 use crate::render::paths::{Counters, Place, Workspace};
 use crate::render::techniques::{LightTracer, Splatter, Techniques};
@@ -20,9 +21,10 @@ pub fn light_pass<const INTERIORS: bool>(
     weight: f64,
 ) -> Counters {
     let mut counters = Counters::default();
+    let Some(tracer) = light_tracer(job, job.plan.light) else { return counters };
     for blocks in blocks_of(paths).chunks(BLOCKS_AT_ONCE) {
         let (results, count) =
-            in_parallel(job.scene, blocks, |workspace, block| light_block(job, workspace, block.clone()));
+            in_parallel(job.scene, blocks, |workspace, block| light_block(job, &tracer, workspace, block.clone()));
         for (block, splats) in blocks.iter().zip(results) {
             film.add_splats(replicate_of(block), block.end - block.start, weight, &splats);
         }
@@ -32,10 +34,14 @@ pub fn light_pass<const INTERIORS: bool>(
 }
 
 /// Traces the light paths of one block: replicates have blocks in turns, each with a sequence of its own.
-fn light_block<const INTERIORS: bool>(job: &Job<INTERIORS>, workspace: &mut Workspace, paths: Range<u64>) -> Splats {
+fn light_block<const INTERIORS: bool>(
+    job: &Job<INTERIORS>,
+    tracer: &LightTracer,
+    workspace: &mut Workspace,
+    paths: Range<u64>,
+) -> Splats {
     let stream = Stream::Light { replicate: replicate_of(&paths) as u8 };
     let sobol = stream.sequence(render_seed(job.settings.seed));
-    let tracer = light_tracer(job);
     let mut splatter = Splatter::new(&job.film.sensor, &job.film.filter, &job.plan.techniques);
     let before = paths.start / BLOCK / LIGHT_REPLICATES as u64 * BLOCK;
     for path in paths {
@@ -45,14 +51,12 @@ fn light_block<const INTERIORS: bool>(job: &Job<INTERIORS>, workspace: &mut Work
     splatter.splats
 }
 
-/// Makes the tracer of light paths that the plan asks for.
-pub fn light_tracer<'j, const INTERIORS: bool>(job: &'j Job<INTERIORS>) -> LightTracer<'j> {
+/// Makes the tracer of the light paths that the plan asks for, which branch in a given way; `None` if it asks for none.
+pub fn light_tracer<'j, const INTERIORS: bool>(
+    job: &'j Job<INTERIORS>,
+    branching: Branching,
+) -> Option<LightTracer<'j>> {
     let techniques = &job.plan.techniques;
-    LightTracer {
-        scene: job.scene,
-        guide: techniques.guide().expect("a plan with light paths"),
-        caustics_only: !matches!(techniques, Techniques::Light { .. }),
-        branching: job.plan.light,
-        max_depth: job.settings.max_depth,
-    }
+    let (guide, caustics_only) = (techniques.guide()?, !matches!(techniques, Techniques::Light { .. }));
+    Some(LightTracer { scene: job.scene, guide, caustics_only, branching, max_depth: job.settings.max_depth })
 }

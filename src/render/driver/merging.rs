@@ -2,15 +2,14 @@
 
 use super::camera_path::{CameraStart, camera_walk, offset_by_filter};
 use super::job::Job;
+use super::light_pass::light_tracer;
 use super::streams::{Stream, render_seed};
 use super::threads::in_parallel;
 use super::tiles::{column_and_row, tile_pixels, tiles};
 use crate::bsdf::{Branching, Parting};
 use crate::film::{Film, LIGHT_REPLICATES, Splats};
 use crate::render::paths::{Counters, Place, Vertex, Walk, Workspace};
-use crate::render::techniques::{
-    CameraNumbers, LightTracer, Merging, PhotonCollector, PhotonMap, follow_specular, radiance_ratio,
-};
+use crate::render::techniques::{CameraNumbers, Merging, PhotonCollector, PhotonMap, follow_specular, radiance_ratio};
 use crate::sampling::mix;
 use crate::scene::MediumId;
 use crate::spectrum::{SampledSpectrum, Wavelengths};
@@ -134,14 +133,8 @@ fn photon_map<const INTERIORS: bool>(
     pass: u64,
     wavelengths: Wavelengths,
 ) -> (PhotonMap, Counters) {
-    let Some(guide) = job.plan.techniques.guide() else { return (PhotonMap::default(), Counters::default()) };
-    let tracer = LightTracer {
-        scene: job.scene,
-        guide,
-        caustics_only: true,
-        branching: Branching { parting: Parting::Ways(PHOTON_WAYS), ..job.plan.light },
-        max_depth: job.settings.max_depth,
-    };
+    let branching = Branching { parting: Parting::Ways(PHOTON_WAYS), ..job.plan.light };
+    let Some(tracer) = light_tracer(job, branching) else { return (PhotonMap::default(), Counters::default()) };
     let sobol = Stream::Photons.sequence(render_seed(job.settings.seed));
     let first = pass * merging.photon_paths;
     let (photons, counters) = in_parallel(job.scene, 0..merging.photon_paths / BLOCK, |workspace, block| {

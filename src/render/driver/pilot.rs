@@ -12,7 +12,7 @@ use super::tiles::column_and_row;
 use crate::bsdf::{Branching, Parting};
 use crate::film::{Filter, Splats, Xyz, value};
 use crate::render::paths::{Counters, Place};
-use crate::render::techniques::{Experience, LightTracer, Splatter, Techniques};
+use crate::render::techniques::{Experience, Splatter, Techniques};
 use crate::sampling::{Sobol, mix};
 use crate::scene::{FilmSettings, LightId, Scene};
 
@@ -39,6 +39,7 @@ struct CameraTrial {
 }
 
 /// A trial of light paths, and what was counted.
+#[derive(Default)]
 struct LightTrial {
     paths: Vec<LightTrialPath>,
     counters: Counters,
@@ -165,7 +166,7 @@ fn light_trial<const INTERIORS: bool>(job: &Job<INTERIORS>, ways: u8) -> LightTr
     let filter = Filter::boxed(0.5);
     let sobol = Sobol::new(mix(pilot_seed(job.settings.seed) ^ u64::from(ways)));
     let branching = Branching { parting: Parting::Ways(ways), ..job.plan.light };
-    let tracer = LightTracer { branching, ..light_tracer(job) };
+    let Some(tracer) = light_tracer(job, branching) else { return LightTrial::default() };
     let (paths, counters) = in_parallel(job.scene, 0..blocks, |workspace, index| {
         let mut splatter = Splatter::new(&job.film.sensor, &filter, &job.plan.techniques);
         let path = |index| {
