@@ -3,6 +3,7 @@
 
 mod camera;
 mod compile;
+mod contact;
 pub mod description;
 mod features;
 mod ids;
@@ -46,6 +47,8 @@ pub struct Scene {
     pub(crate) triangle_objects: Vec<ObjectId>,
     pub(crate) analytic: Vec<Analytic>,
     pub(crate) analytic_objects: Vec<ObjectId>,
+    /// Opaque surfaces that may touch transparent objects; `None` if there are none.
+    contacts: Option<contact::Contacts>,
     /// Objects, in the file's order.
     pub objects: Vec<Object>,
     /// Transparent objects, the largest first.
@@ -93,6 +96,8 @@ pub struct Object {
     pub light: Option<LightId>,
     /// Box around it.
     pub bounds: Aabb,
+    /// Whether it is transparent and an opaque surface may touch it.
+    pub touched: bool,
     /// Whether it may have a face in common with another transparent object; see [`Scene::interiors_at`].
     pub coincident: bool,
 }

@@ -66,31 +66,53 @@ impl Surface {
 }
 
 impl Scene {
-    /// The first surface on a ray.
+    /// The first surface on a ray. Where an opaque surface touches a transparent object, it is the opaque one.
     pub fn closest(&self, ray: &Ray, t_max: f32) -> Option<Surface> {
+        let surface = self.first_surface(ray, t_max)?;
+        if self.object(surface.object).touched {
+            return self.in_contact(ray, surface, t_max);
+        }
+        Some(surface)
+    }
+
+    /// The first surface on a ray as rounding has it.
+    #[inline(always)]
+    pub(super) fn first_surface(&self, ray: &Ray, t_max: f32) -> Option<Surface> {
         let mut last: Option<(AnalyticId, AnalyticHit)> = None;
         let hit = self.bvh.closest(ray, t_max, |index, t_max| {
             let hit = self.analytic(index).intersect(ray, t_max)?;
             last = Some((index, hit));
             Some(hit.t as f32)
         })?;
-        match hit.primitive {
-            Primitive::Triangle(index) => self.triangle_surface(ray, index, hit.t),
-            Primitive::Analytic(index) => {
-                let hit = match last {
-                    Some((i, hit)) if i == index => hit,
-                    _ => self.analytic(index).intersect(ray, t_max)?,
-                };
-                Some(Surface {
-                    t: hit.t as f32,
-                    point: hit.point.as_vec3(),
-                    error: hit.error,
-                    geometric: hit.normal,
-                    shading: hit.normal.as_vec3(),
-                    object: self.analytic_objects[index.0 as usize],
-                    place: Some(Place::Analytic { index, face: hit.face }),
-                })
+        match (hit.primitive, last) {
+            (Primitive::Analytic(index), Some((last, hit))) if last == index => {
+                Some(self.analytic_surface(index, &hit))
             }
+            (primitive, _) => self.surface_on(ray, primitive, hit.t, t_max),
+        }
+    }
+
+    /// The surface of a primitive that a ray is known to meet.
+    #[inline]
+    pub(super) fn surface_on(&self, ray: &Ray, primitive: Primitive, t: f32, t_max: f32) -> Option<Surface> {
+        match primitive {
+            Primitive::Triangle(index) => self.triangle_surface(ray, index, t),
+            Primitive::Analytic(index) => {
+                Some(self.analytic_surface(index, &self.analytic(index).intersect(ray, t_max)?))
+            }
+        }
+    }
+
+    #[inline]
+    fn analytic_surface(&self, index: AnalyticId, hit: &AnalyticHit) -> Surface {
+        Surface {
+            t: hit.t as f32,
+            point: hit.point.as_vec3(),
+            error: hit.error,
+            geometric: hit.normal,
+            shading: hit.normal.as_vec3(),
+            object: self.analytic_objects[index.0 as usize],
+            place: Some(Place::Analytic { index, face: hit.face }),
         }
     }
 
@@ -106,7 +128,8 @@ impl Scene {
 
     /// Whether anything is in the way.
     pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {
-        self.bvh.occluded(ray, t_max, |index, t_max| self.analytic(index).hits(ray, t_max))
+        let occluded = self.bvh.occluded(ray, t_max, |index, t_max| self.analytic(index).hits(ray, t_max));
+        occluded && (self.contacts.is_none() || self.closest(ray, t_max).is_some())
     }
 
     fn triangle_surface(&self, ray: &Ray, index: TriangleId, t: f32) -> Option<Surface> {

@@ -42,6 +42,11 @@ impl AnalyticShape {
         for_shape!(self, shape => LocalShape::is_closed(shape))
     }
 
+    /// Whether the shape is known to hold every line between two of its points.
+    pub fn is_convex(&self) -> bool {
+        matches!(self, Self::Sphere(_) | Self::Cuboid(_) | Self::Cylinder(_))
+    }
+
     /// The pieces of the surface, placed in the world, that points can be drawn from uniformly by area. `None` where this
     /// is not known how to do exactly.
     pub fn patches(&self, world_from_object: &DAffine3) -> Option<Vec<Patch>> {

@@ -65,6 +65,15 @@ impl Analytic {
         }
     }
 
+    /// Whether the shape is known to hold a whole box, so that its surface stays clear of it.
+    pub fn encloses(&self, bounds: &Aabb) -> bool {
+        let convex = match &self.placed {
+            Placed::Ball(_) | Placed::Polyhedron(_) => true,
+            Placed::Transformed(shape) => shape.shape().is_convex(),
+        };
+        convex && bounds.corners().iter().all(|corner| self.contains(corner.as_dvec3()))
+    }
+
     /// Whether a curved part of the surface may lie on the other's: shapes can share a part of a sphere or of a cylinder,
     /// and equal shapes share everything. For flat parts, see [`Self::planes`].
     pub fn may_share_a_face(&self, other: &Self) -> bool {

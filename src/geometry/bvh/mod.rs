@@ -158,6 +158,50 @@ impl Bvh {
         any.is_some_and(|nearest| nearest.key.is_some())
     }
 
+    /// Calls `found` for each primitive that the ray meets with 0 < t < `t_max`, in no order; of an analytic primitive for
+    /// its nearest hit.
+    pub fn visit(
+        &self,
+        ray: &Ray,
+        t_max: f32,
+        mut analytic: impl FnMut(AnalyticId, f32) -> Option<f32>,
+        mut found: impl FnMut(Primitive, f32),
+    ) {
+        let Some(lanes) = RayLanes::new(ray) else { return };
+        let mut stack = Stack::<LARGE_STACK> { entries: [0; LARGE_STACK], len: 0 };
+        let mut next = Some(self.root);
+        while let Some(current) = next {
+            match current.target() {
+                Target::Node(index) => {
+                    let (near, hits) = self.nodes[index].intersect(&lanes, t_max);
+                    if hits != 0 {
+                        next = Some(stack.push_children::<true>(&self.nodes[index], near, hits));
+                        continue;
+                    }
+                }
+                Target::Packet(index) => {
+                    let Some(packet) = self.packets.get(index) else { return };
+                    let (t, doubt, mut hits) = packet.intersect(&lanes, t_max);
+                    let (t, doubt) = (t.to_array(), doubt.to_array());
+                    while hits != 0 {
+                        let lane = hits.trailing_zeros() as usize % PACKET;
+                        hits &= hits - 1;
+                        let near = if t[lane] > doubt[lane] { Some(t[lane]) } else { packet.exact_distance(lane, ray) };
+                        if let Some(t) = near {
+                            found(Primitive::Triangle(TriangleId(packet.triangles[lane])), t);
+                        }
+                    }
+                }
+                Target::Analytic(index) => {
+                    if let Some(t) = analytic(AnalyticId(index), t_max) {
+                        found(Primitive::Analytic(AnalyticId(index)), t);
+                    }
+                }
+            }
+            next = stack.pop(t_max);
+        }
+    }
+
     #[inline]
     fn dispatch<const ANY: bool>(
         &self,

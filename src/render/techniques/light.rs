@@ -109,7 +109,8 @@ impl LightTracer<'_> {
         // What the path carries from there.
         workspace.spectra.begin(wavelengths);
         let origin = emission.start.origin(emission.direction);
-        let inside = if INTERIORS && light.may_be_inside { scene.interiors_at(origin) } else { Vec::new() };
+        let start = scene.clear_of_contacts(origin, emission.start.normal);
+        let inside = if INTERIORS && light.may_be_inside { scene.interiors_at(start) } else { Vec::new() };
         workspace.interiors.reset(&inside);
         let spectrum = workspace.spectra.spectrum(scene, light.spectrum) * (1.0 / probability);
         let start = Start {

@@ -56,7 +56,14 @@ impl Geometry {
                     (geometry.add_analytic(analytic, index), Source::Analytic(shape, transform))
                 }
             };
-            geometry.objects.push(Object { material, two_sided, light: None, bounds, coincident: false });
+            geometry.objects.push(Object {
+                material,
+                two_sided,
+                light: None,
+                bounds,
+                touched: false,
+                coincident: false,
+            });
             geometry.sources.push(source);
         }
         if geometry.normals.iter().all(|n| *n == Vec3::ZERO) {

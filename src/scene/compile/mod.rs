@@ -10,6 +10,7 @@ mod place;
 mod spectra;
 
 use super::Integrator;
+use super::contact::Contacts;
 use super::description::{FilterKind, FovAxis, SceneDescription};
 use super::{Camera, Scene, SceneFeatures};
 use crate::color::Observer;
@@ -109,6 +110,7 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
         triangle_objects: geometry.triangle_objects,
         analytic: geometry.analytic,
         analytic_objects: geometry.analytic_objects,
+        contacts: None,
         objects: geometry.objects,
         solids,
         spectra: spectra.into_tables(),
@@ -128,6 +130,7 @@ fn compile_parts(description: &SceneDescription) -> Result<Compiled> {
         radiance_scale: lights.radiance_scale,
     };
     scene.mark_coincident();
+    scene.contacts = Contacts::find(&mut scene);
     let film = &description.film;
     let filter = match film.filter {
         FilterKind::Box => Filter::boxed(film.filter_radius),
