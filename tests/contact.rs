@@ -57,7 +57,7 @@ fn standing(kind: usize) -> (Value, Value) {
 fn lamp_under_table(kind: usize, random: &mut Fractions) -> Value {
     let axis = DVec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0));
     let degrees = if random.next() < 0.25 { 0.0 } else { random.between(0.0, 360.0) };
-    let scale = f64::exp(random.between(-7.0, 7.0));
+    let scale = abbe::math::exp(random.between(-7.0, 7.0));
     let shift = DVec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0)) * scale;
     let place = json!([{ "scale": scale }, { "rotate_degrees": degrees, "axis": axis.to_array() },
                        { "translate": shift.to_array() }]);
