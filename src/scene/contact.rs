@@ -24,16 +24,6 @@ pub(super) struct Contacts {
 /// error of a point on a triangle and the steps of a ray's start, in a scene of unit size.
 const REACH: f32 = 1.0 / (1 << 19) as f32;
 
-/// What becomes of a ray that has met a surface with others in contact.
-enum Meeting {
-    /// It meets the surface.
-    This,
-    /// It meets what touches the surface.
-    Other(Surface),
-    /// It leaves what touches the surface, and goes on.
-    Leaves,
-}
-
 impl Contacts {
     /// Finds the opaque surfaces that may touch a transparent object, and marks such objects. `None` if there are none.
     pub fn find(scene: &mut Scene) -> Option<Self> {
@@ -109,32 +99,26 @@ impl Scene {
         if self.contacts.is_some() { point + normal * (2.0 * REACH) } else { point }
     }
 
+    /// Whether a ray that meets a surface set out from what touches it: it is on the other side already if it was before.
+    pub fn sets_out_in_contact(&self, surface: &Surface, direction: Vec3) -> bool {
+        let normal = surface.geometric.as_vec3();
+        let reach = || normal.abs().dot(surface.error) + REACH;
+        self.object(surface.object).touched && surface.t * normal.dot(direction).abs() <= 4.0 * reach()
+    }
+
     /// What a ray meets that has come upon a transparent object which others may touch.
     #[cold]
     #[inline(never)]
-    pub(super) fn in_contact(&self, ray: &Ray, first: Surface, t_max: f32) -> Option<Surface> {
-        let (mut ray, mut surface, mut before) = (*ray, first, 0.0);
-        loop {
-            match self.meeting(&ray, &surface) {
-                Meeting::This => return Some(Surface { t: before + surface.t, ..surface }),
-                Meeting::Other(other) => {
-                    let t = before + other.t;
-                    return (t < t_max).then_some(Surface { t, ..other });
-                }
-                Meeting::Leaves => {
-                    before += surface.t;
-                    ray = surface.spawn(ray.direction);
-                    surface = self.first_surface(&ray, t_max - before)?;
-                    if !self.object(surface.object).touched {
-                        return Some(Surface { t: before + surface.t, ..surface });
-                    }
-                }
-            }
+    pub(super) fn in_contact(&self, ray: &Ray, surface: Surface, t_max: f32) -> Option<Surface> {
+        match self.touching(ray, &surface) {
+            Some(other) => (other.t < t_max).then_some(other),
+            None => Some(surface),
         }
     }
 
-    fn meeting(&self, ray: &Ray, surface: &Surface) -> Meeting {
-        let Some(contacts) = &self.contacts else { return Meeting::This };
+    /// The opaque surface that touches another at its hit, if the ray meets it and does not leave it.
+    fn touching(&self, ray: &Ray, surface: &Surface) -> Option<Surface> {
+        let contacts = self.contacts.as_ref()?;
         let normal = surface.geometric.as_vec3();
         let reach = normal.abs().dot(surface.error) + REACH;
         let across = |to: Vec3| (to - surface.point).dot(normal).abs();
@@ -150,7 +134,7 @@ impl Scene {
                 touching = Some(other);
             }
         });
-        let Some(touching) = touching else { return Meeting::This };
+        let touching = touching?;
         let slope = normal.dot(ray.direction).abs().max(f32::MIN_POSITIVE);
         let mut ahead: Option<Surface> = None;
         contacts.visit(self, ray, surface.t + 4.0 * reach / slope, |other| {
@@ -159,11 +143,8 @@ impl Scene {
                 ahead = Some(other);
             }
         });
-        match ahead {
-            Some(ahead) => Meeting::Other(ahead),
-            // Beside the other's rim.
-            None if across(ray.origin) > 4.0 * reach => Meeting::Other(Surface { t: surface.t, ..touching }),
-            None => Meeting::Leaves,
-        }
+        // A ray from afar that meets nothing there passes beside the other's rim.
+        let from_afar = across(ray.origin) > 4.0 * reach;
+        ahead.or_else(|| from_afar.then_some(Surface { t: surface.t, ..touching }))
     }
 }

@@ -68,28 +68,20 @@ impl Surface {
 impl Scene {
     /// The first surface on a ray. Where an opaque surface touches a transparent object, it is the opaque one.
     pub fn closest(&self, ray: &Ray, t_max: f32) -> Option<Surface> {
-        let surface = self.first_surface(ray, t_max)?;
-        if self.object(surface.object).touched {
-            return self.in_contact(ray, surface, t_max);
-        }
-        Some(surface)
-    }
-
-    /// The first surface on a ray as rounding has it.
-    #[inline(always)]
-    pub(super) fn first_surface(&self, ray: &Ray, t_max: f32) -> Option<Surface> {
         let mut last: Option<(AnalyticId, AnalyticHit)> = None;
         let hit = self.bvh.closest(ray, t_max, |index, t_max| {
             let hit = self.analytic(index).intersect(ray, t_max)?;
             last = Some((index, hit));
             Some(hit.t as f32)
         })?;
-        match (hit.primitive, last) {
-            (Primitive::Analytic(index), Some((last, hit))) if last == index => {
-                Some(self.analytic_surface(index, &hit))
-            }
-            (primitive, _) => self.surface_on(ray, primitive, hit.t, t_max),
+        let surface = match (hit.primitive, last) {
+            (Primitive::Analytic(index), Some((last, hit))) if last == index => self.analytic_surface(index, &hit),
+            (primitive, _) => self.surface_on(ray, primitive, hit.t, t_max)?,
+        };
+        if self.object(surface.object).touched {
+            return self.in_contact(ray, surface, t_max);
         }
+        Some(surface)
     }
 
     /// The surface of a primitive that a ray is known to meet.
@@ -128,8 +120,7 @@ impl Scene {
 
     /// Whether anything is in the way.
     pub fn occluded(&self, ray: &Ray, t_max: f32) -> bool {
-        let occluded = self.bvh.occluded(ray, t_max, |index, t_max| self.analytic(index).hits(ray, t_max));
-        occluded && (self.contacts.is_none() || self.closest(ray, t_max).is_some())
+        self.bvh.occluded(ray, t_max, |index, t_max| self.analytic(index).hits(ray, t_max))
     }
 
     fn triangle_surface(&self, ray: &Ray, index: TriangleId, t: f32) -> Option<Surface> {

@@ -43,7 +43,7 @@ impl AnalyticShape {
     }
 
     /// Whether the shape is known to hold every line between two of its points.
-    pub fn is_convex(&self) -> bool {
+    pub(super) fn is_convex(&self) -> bool {
         matches!(self, Self::Sphere(_) | Self::Cuboid(_) | Self::Cylinder(_))
     }
 

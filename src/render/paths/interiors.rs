@@ -43,6 +43,16 @@ impl Interiors {
             return true;
         }
         self.copy_from(before);
+        if scene.sets_out_in_contact(surface, direction) {
+            let inward = surface.geometric.dot(direction.as_dvec3()) < 0.0;
+            let inside = self.entries.iter().any(|(object, _)| *object == surface.object);
+            if inward && !inside {
+                self.entries.push((surface.object, medium));
+            } else if !inward {
+                self.entries.retain(|(object, _)| *object != surface.object);
+            }
+            return true;
+        }
         if surface.geometric.dot(direction.as_dvec3()) < 0.0 {
             self.entries.push((surface.object, medium));
             return true;
