@@ -58,7 +58,9 @@ impl Interiors {
             return true;
         }
         let entered = self.entries.iter().rposition(|(object, _)| *object == surface.object);
-        entered.map(|index| self.entries.remove(index)).is_some()
+        let entered = entered.map(|index| self.entries.remove(index)).is_some();
+        // In the wedge round a point of contact rounding decides on which side of the boundary a path was.
+        entered || scene.object(surface.object).touched
     }
 }
 
