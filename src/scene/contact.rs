@@ -24,48 +24,60 @@ pub(super) struct Contacts {
 /// error of a point on a triangle and the steps of a ray's start, in a scene of unit size.
 const REACH: f32 = 1.0 / (1 << 19) as f32;
 
+/// How far from a surface along its normal what touches it can be, and half of how far a ray that leaves either can start.
+fn reach(surface: &Surface) -> f32 {
+    surface.geometric.as_vec3().abs().dot(surface.error) + REACH
+}
+
+/// The transparent objects of a scene, each with a box around it and whether something may touch it.
+struct Glass {
+    objects: Vec<(ObjectId, Aabb, bool)>,
+    bounds: Aabb,
+}
+
+impl Glass {
+    fn of(scene: &Scene) -> Self {
+        let objects: Vec<_> = scene.solids.iter().map(|s| (s.object, s.bounds.grown(REACH), false)).collect();
+        let bounds = objects.iter().fold(Aabb::EMPTY, |all, (_, bounds, _)| all.union(*bounds));
+        Self { objects, bounds }
+    }
+
+    /// Marks the objects that what is in a box may touch, unless it is `clear` of theirs; tells whether there are any.
+    fn mark_near(&mut self, bounds: &Aabb, clear: impl Fn(&Aabb) -> bool) -> bool {
+        let mut any = false;
+        if bounds.overlaps(&self.bounds) {
+            for (_, own, touched) in &mut self.objects {
+                let near = own.overlaps(bounds) && !clear(own);
+                (*touched, any) = (*touched || near, any || near);
+            }
+        }
+        any
+    }
+}
+
 impl Contacts {
     /// Finds the opaque surfaces that may touch a transparent object, and marks such objects. `None` if there are none.
     pub fn find(scene: &mut Scene) -> Option<Self> {
-        let glass: Vec<(ObjectId, Aabb)> = scene.solids.iter().map(|s| (s.object, s.bounds.grown(REACH))).collect();
-        let everything = glass.iter().fold(Aabb::EMPTY, |all, (_, bounds)| all.union(*bounds));
-        let near = |bounds: &Aabb| -> Vec<usize> {
-            if !bounds.overlaps(&everything) {
-                return Vec::new();
-            }
-            (0..glass.len()).filter(|i| glass[*i].1.overlaps(bounds)).collect()
-        };
-        let (mut triangles, mut analytic, mut boxes, mut touching) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        for (index, object) in (0..).zip(&scene.triangle_objects) {
-            if scene.object(*object).material.medium().is_some() {
-                continue;
-            }
+        let mut glass = Glass::of(scene);
+        let is_opaque = |object: &ObjectId| scene.object(*object).material.medium().is_none();
+        let near = (0..).zip(&scene.triangle_objects).filter(|&(index, object)| {
             let corners = scene.triangles[index as usize].map(|i| scene.positions[i as usize]);
-            let touched = near(&Aabb::from_points(corners));
-            if !touched.is_empty() {
-                triangles.push(TriangleId(index));
-                touching.extend(touched);
-            }
-        }
-        for (index, object) in (0..).zip(&scene.analytic_objects) {
-            if scene.object(*object).material.medium().is_some() {
-                continue;
-            }
+            is_opaque(object) && glass.mark_near(&Aabb::from_points(corners), |_| false)
+        });
+        let triangles: Vec<_> = near.map(|(index, _)| TriangleId(index)).collect();
+        let near = (0..).zip(&scene.analytic_objects).filter(|&(index, object)| {
             let shape = scene.analytic(AnalyticId(index));
-            let mut touched = near(&shape.bounds());
-            touched.retain(|i| !shape.encloses(&glass[*i].1));
-            if !touched.is_empty() {
-                analytic.push(AnalyticId(index));
-                boxes.push(shape.bounds());
-                touching.extend(touched);
-            }
-        }
-        for i in &touching {
-            scene.objects[glass[*i].0.0 as usize].touched = true;
-        }
+            is_opaque(object) && glass.mark_near(&shape.bounds(), |glass| shape.encloses(glass))
+        });
+        let analytic: Vec<_> = near.map(|(index, _)| AnalyticId(index)).collect();
+
         let corners: Vec<_> = triangles.iter().map(|TriangleId(i)| scene.triangles[*i as usize]).collect();
+        let boxes: Vec<_> = analytic.iter().map(|id| scene.analytic(*id).bounds()).collect();
         let tree = Bvh::build(&scene.positions, &corners, &boxes);
-        (!touching.is_empty()).then_some(Self { tree, triangles, analytic })
+        for (ObjectId(index), _, touched) in glass.objects {
+            scene.objects[index as usize].touched = touched;
+        }
+        (!(triangles.is_empty() && analytic.is_empty())).then_some(Self { tree, triangles, analytic })
     }
 
     /// Calls `found` with every hit of a ray on these surfaces.
@@ -101,9 +113,8 @@ impl Scene {
 
     /// Whether a ray that meets a surface set out from what touches it: it is on the other side already if it was before.
     pub fn sets_out_in_contact(&self, surface: &Surface, direction: Vec3) -> bool {
-        let normal = surface.geometric.as_vec3();
-        let reach = || normal.abs().dot(surface.error) + REACH;
-        self.object(surface.object).touched && surface.t * normal.dot(direction).abs() <= 4.0 * reach()
+        let climb = || surface.t * surface.geometric.as_vec3().dot(direction).abs();
+        self.object(surface.object).touched && climb() <= 4.0 * reach(surface)
     }
 
     /// What a ray meets that has come upon a transparent object which others may touch.
@@ -120,7 +131,7 @@ impl Scene {
     fn touching(&self, ray: &Ray, surface: &Surface) -> Option<Surface> {
         let contacts = self.contacts.as_ref()?;
         let normal = surface.geometric.as_vec3();
-        let reach = normal.abs().dot(surface.error) + REACH;
+        let reach = reach(surface);
         let across = |to: Vec3| (to - surface.point).dot(normal).abs();
         // What is there is asked along the normal, so that the answer depends on the place and not on the ray.
         let probe = Ray { origin: surface.point + normal * (2.0 * reach), direction: -normal };

@@ -72,13 +72,44 @@ pub struct BvhHit {
     pub t: f32,
 }
 
-/// The best hit so far. Keys number the triangles, then the analytic primitives.
-struct Nearest {
+/// What a traversal collects. Keys number the triangles, then the analytic primitives.
+trait Hits {
+    /// Whether one hit is enough: boxes are then visited in the order of the node, not from near to far.
+    const ANY: bool;
+
+    /// Distance at which hits on triangles cease to matter.
+    fn t_max(&self) -> f32;
+
+    /// Distance at which hits on analytic primitives cease to matter.
+    fn analytic_t_max(&self) -> f32;
+
+    /// Takes a hit.
+    fn offer(&mut self, t: f32, key: u32);
+
+    /// Distance up to which boxes are still to be visited, if the hits so far limit it.
+    fn limit(&self) -> Option<f32>;
+}
+
+/// The best hit so far.
+struct Nearest<const ANY: bool> {
     t: f32,
     key: Option<u32>,
 }
 
-impl Nearest {
+impl<const ANY: bool> Hits for Nearest<ANY> {
+    const ANY: bool = ANY;
+
+    #[inline(always)]
+    fn t_max(&self) -> f32 {
+        self.t
+    }
+
+    /// A hit as near as the best so far may still come first in order.
+    #[inline(always)]
+    fn analytic_t_max(&self) -> f32 {
+        if self.key.is_some() { self.t.next_up() } else { self.t }
+    }
+
     /// Takes a hit that is nearer, or as near and earlier in order.
     #[inline(always)]
     fn offer(&mut self, t: f32, key: u32) {
@@ -86,6 +117,37 @@ impl Nearest {
             self.t = t;
             self.key = Some(key);
         }
+    }
+
+    #[inline(always)]
+    fn limit(&self) -> Option<f32> {
+        self.key.is_some().then_some(self.t * TIE_SLACK)
+    }
+}
+
+/// All hits, each handed on as it is found.
+struct Each<F> {
+    t_max: f32,
+    found: F,
+}
+
+impl<F: FnMut(f32, u32)> Hits for Each<F> {
+    const ANY: bool = false;
+
+    fn t_max(&self) -> f32 {
+        self.t_max
+    }
+
+    fn analytic_t_max(&self) -> f32 {
+        self.t_max
+    }
+
+    fn offer(&mut self, t: f32, key: u32) {
+        (self.found)(t, key);
+    }
+
+    fn limit(&self) -> Option<f32> {
+        None
     }
 }
 
@@ -142,20 +204,26 @@ impl Bvh {
         t_max: f32,
         analytic: impl FnMut(AnalyticId, f32) -> Option<f32>,
     ) -> Option<BvhHit> {
-        let nearest = self.dispatch::<false>(ray, t_max, analytic)?;
-        let key = nearest.key?;
-        let primitive = match key.checked_sub(self.triangle_count) {
+        let mut nearest = Nearest::<false> { t: t_max, key: None };
+        self.dispatch(ray, &mut nearest, analytic)?;
+        Some(BvhHit { primitive: self.primitive(nearest.key?), t: nearest.t })
+    }
+
+    /// The primitive of a key.
+    #[inline]
+    fn primitive(&self, key: u32) -> Primitive {
+        match key.checked_sub(self.triangle_count) {
             None => Primitive::Triangle(TriangleId(key)),
             Some(index) => Primitive::Analytic(AnalyticId(index)),
-        };
-        Some(BvhHit { primitive, t: nearest.t })
+        }
     }
 
     /// Whether anything is hit with 0 < t < `t_max`. `analytic(index, t_max)` tells it of one analytic primitive.
     #[inline]
     pub fn occluded(&self, ray: &Ray, t_max: f32, mut analytic: impl FnMut(AnalyticId, f32) -> bool) -> bool {
-        let any = self.dispatch::<true>(ray, t_max, |index, t_max| analytic(index, t_max).then_some(0.0));
-        any.is_some_and(|nearest| nearest.key.is_some())
+        let mut any = Nearest::<true> { t: t_max, key: None };
+        let complete = self.dispatch(ray, &mut any, |index, t_max| analytic(index, t_max).then_some(0.0));
+        complete.is_some() && any.key.is_some()
     }
 
     /// Calls `found` for each primitive that the ray meets with 0 < t < `t_max`, in no order; of an analytic primitive for
@@ -164,70 +232,40 @@ impl Bvh {
         &self,
         ray: &Ray,
         t_max: f32,
-        mut analytic: impl FnMut(AnalyticId, f32) -> Option<f32>,
+        analytic: impl FnMut(AnalyticId, f32) -> Option<f32>,
         mut found: impl FnMut(Primitive, f32),
     ) {
-        let Some(lanes) = RayLanes::new(ray) else { return };
-        let mut stack = Stack::<LARGE_STACK> { entries: [0; LARGE_STACK], len: 0 };
-        let mut next = Some(self.root);
-        while let Some(current) = next {
-            match current.target() {
-                Target::Node(index) => {
-                    let (near, hits) = self.nodes[index].intersect(&lanes, t_max);
-                    if hits != 0 {
-                        next = Some(stack.push_children::<true>(&self.nodes[index], near, hits));
-                        continue;
-                    }
-                }
-                Target::Packet(index) => {
-                    let Some(packet) = self.packets.get(index) else { return };
-                    let (t, doubt, mut hits) = packet.intersect(&lanes, t_max);
-                    let (t, doubt) = (t.to_array(), doubt.to_array());
-                    while hits != 0 {
-                        let lane = hits.trailing_zeros() as usize % PACKET;
-                        hits &= hits - 1;
-                        let near = if t[lane] > doubt[lane] { Some(t[lane]) } else { packet.exact_distance(lane, ray) };
-                        if let Some(t) = near {
-                            found(Primitive::Triangle(TriangleId(packet.triangles[lane])), t);
-                        }
-                    }
-                }
-                Target::Analytic(index) => {
-                    if let Some(t) = analytic(AnalyticId(index), t_max) {
-                        found(Primitive::Analytic(AnalyticId(index)), t);
-                    }
-                }
-            }
-            next = stack.pop(t_max);
-        }
+        let mut each = Each { t_max, found: |t, key| found(self.primitive(key), t) };
+        // A ray without a direction meets nothing.
+        let _ = self.dispatch(ray, &mut each, analytic);
     }
 
     #[inline]
-    fn dispatch<const ANY: bool>(
+    fn dispatch<H: Hits>(
         &self,
         ray: &Ray,
-        t_max: f32,
+        hits: &mut H,
         analytic: impl FnMut(AnalyticId, f32) -> Option<f32>,
-    ) -> Option<Nearest> {
+    ) -> Option<()> {
         if self.stack_entries < SMALL_STACK {
-            self.traverse::<SMALL_STACK, ANY>(ray, t_max, analytic)
+            self.traverse::<SMALL_STACK, H>(ray, hits, analytic)
         } else if self.stack_entries < MEDIUM_STACK {
-            self.traverse::<MEDIUM_STACK, ANY>(ray, t_max, analytic)
+            self.traverse::<MEDIUM_STACK, H>(ray, hits, analytic)
         } else {
-            self.traverse::<LARGE_STACK, ANY>(ray, t_max, analytic)
+            self.traverse::<LARGE_STACK, H>(ray, hits, analytic)
         }
     }
 
-    /// The traversal: boxes from near to far, or for `ANY` in the order of the node and only up to the first hit.
-    fn traverse<const STACK: usize, const ANY: bool>(
+    /// The traversal: boxes from near to far, or for `ANY` in the order of the node and only up to the first hit. `None` for
+    /// a ray that has no direction.
+    fn traverse<const STACK: usize, H: Hits>(
         &self,
         ray: &Ray,
-        t_max: f32,
+        collected: &mut H,
         mut analytic: impl FnMut(AnalyticId, f32) -> Option<f32>,
-    ) -> Option<Nearest> {
+    ) -> Option<()> {
         let lanes = RayLanes::new(ray)?;
-        let mut nearest = Nearest { t: t_max, key: None };
-        let mut limit = t_max;
+        let mut limit = collected.t_max();
         let mut stack = Stack::<STACK> { entries: [0; STACK], len: 0 };
         let mut current = self.root;
         loop {
@@ -236,13 +274,17 @@ impl Bvh {
                     let node = self.nodes.get(index)?;
                     let (near, hits) = node.intersect(&lanes, limit);
                     if hits != 0 {
-                        current = stack.push_children::<ANY>(node, near, hits);
+                        current = if H::ANY {
+                            stack.push_children::<true>(node, near, hits)
+                        } else {
+                            stack.push_children::<false>(node, near, hits)
+                        };
                         continue;
                     }
                 }
                 Target::Packet(index) => {
                     let packet = self.packets.get(index)?;
-                    let (t, doubt, mut hits) = packet.intersect(&lanes, nearest.t);
+                    let (t, doubt, mut hits) = packet.intersect(&lanes, collected.t_max());
                     let (t, doubt) = (t.to_array(), doubt.to_array());
                     while hits != 0 {
                         let lane = hits.trailing_zeros() as usize % PACKET;
@@ -250,27 +292,25 @@ impl Bvh {
                         let distance =
                             if t[lane] > doubt[lane] { Some(t[lane]) } else { packet.exact_distance(lane, ray) };
                         if let Some(distance) = distance {
-                            nearest.offer(distance, packet.triangles[lane]);
+                            collected.offer(distance, packet.triangles[lane]);
                         }
                     }
                 }
                 Target::Analytic(index) => {
-                    // A hit as near as the best so far may still come first in order.
-                    let limit = if nearest.key.is_some() { nearest.t.next_up() } else { nearest.t };
-                    if let Some(t) = analytic(AnalyticId(index), limit) {
-                        nearest.offer(t, self.triangle_count + index);
+                    if let Some(t) = analytic(AnalyticId(index), collected.analytic_t_max()) {
+                        collected.offer(t, self.triangle_count + index);
                     }
                 }
             }
-            if nearest.key.is_some() {
-                if ANY {
-                    return Some(nearest);
+            if let Some(nearer) = collected.limit() {
+                if H::ANY {
+                    return Some(());
                 }
-                limit = nearest.t * TIE_SLACK;
+                limit = nearer;
             }
             match stack.pop(limit) {
                 Some(reference) => current = reference,
-                None => return Some(nearest),
+                None => return Some(()),
             }
         }
     }
@@ -345,10 +385,9 @@ fn items(positions: &[Vec3], triangles: &[[u32; 3]], analytic: &[Aabb]) -> Vec<I
         }
     }
     let largest = items.iter().map(|item| item.bounds.min.abs().max(item.bounds.max.abs()).max_element());
-    let growth = Vec3::splat(largest.fold(0.0, f32::max) * BOX_GROWTH);
+    let growth = largest.fold(0.0, f32::max) * BOX_GROWTH;
     for item in &mut items {
-        item.bounds.min -= growth;
-        item.bounds.max += growth;
+        item.bounds = item.bounds.grown(growth);
     }
     items
 }

@@ -43,24 +43,18 @@ impl Interiors {
             return true;
         }
         self.copy_from(before);
-        if scene.sets_out_in_contact(surface, direction) {
-            let inward = surface.geometric.dot(direction.as_dvec3()) < 0.0;
-            let inside = self.entries.iter().any(|(object, _)| *object == surface.object);
-            if inward && !inside {
-                self.entries.push((surface.object, medium));
-            } else if !inward {
-                self.entries.retain(|(object, _)| *object != surface.object);
+        let inward = surface.geometric.dot(direction.as_dvec3()) < 0.0;
+        match self.entries.iter().rposition(|(object, _)| *object == surface.object) {
+            // The path set out from what touches the boundary, and is inside already.
+            Some(_) if inward && scene.sets_out_in_contact(surface, direction) => {}
+            _ if inward => self.entries.push((surface.object, medium)),
+            Some(index) => {
+                self.entries.remove(index);
             }
-            return true;
+            // In the wedge round a point of contact rounding decides on which side of the boundary a path was.
+            None => return scene.object(surface.object).touched,
         }
-        if surface.geometric.dot(direction.as_dvec3()) < 0.0 {
-            self.entries.push((surface.object, medium));
-            return true;
-        }
-        let entered = self.entries.iter().rposition(|(object, _)| *object == surface.object);
-        let entered = entered.map(|index| self.entries.remove(index)).is_some();
-        // In the wedge round a point of contact rounding decides on which side of the boundary a path was.
-        entered || scene.object(surface.object).touched
+        true
     }
 }
 

@@ -109,8 +109,10 @@ impl LightTracer<'_> {
         // What the path carries from there.
         workspace.spectra.begin(wavelengths);
         let origin = emission.start.origin(emission.direction);
-        let start = scene.clear_of_contacts(origin, emission.start.normal);
-        let inside = if INTERIORS && light.may_be_inside { scene.interiors_at(start) } else { Vec::new() };
+        let inside = match INTERIORS && light.may_be_inside {
+            true => scene.interiors_at(scene.clear_of_contacts(origin, emission.start.normal)),
+            false => Vec::new(),
+        };
         workspace.interiors.reset(&inside);
         let spectrum = workspace.spectra.spectrum(scene, light.spectrum) * (1.0 / probability);
         let start = Start {
