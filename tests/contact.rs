@@ -155,6 +155,77 @@ fn a_lamp_in_a_face_of_glass_shines() {
             assert!(touching.mean > 1e-3 && touching.p_value(&clear) > 1e-4, "{integrator}, {down}");
         }
     }
+    // A gap of a few times the rounding is no contact, and all techniques agree on that.
+    for above in [-1e-5, -4e-6, 4e-6, 1e-5] {
+        let [path, light, auto] = ["path", "light", "auto"]
+            .map(|integrator| Estimate::over_seeds(&lamp_on_glass(above, false, integrator), 6, mean_y));
+        println!("{above:e}: path {path:?}, light {light:?}, auto {auto:?}");
+        assert!(path.p_value(&light) > 1e-4 && path.p_value(&auto) > 1e-4, "{above:e}: {path:?} {light:?} {auto:?}");
+    }
     let above = with(&lamp_on_glass(0.001, true, "auto"), "/render/seed", 3);
     assert!(mean_y(&common::render_json(&above).0) > 1e-3);
+}
+
+/// A glass ball of radius 5 mm, sunk into a matte ground by a share of its radius, under an even sky.
+fn ball_on_ground(half_width: f64, sunk: f64) -> Value {
+    let (radius, w) = (0.005, half_width);
+    json!({
+        "camera": { "type": "perspective", "from": [0, 0.05, 0.03], "to": [0, radius, 0], "fov_degrees": 8 },
+        "film": { "width": 16, "height": 16 },
+        "render": { "samples_per_pixel": 256, "integrator": "path", "seed": 0 },
+        "materials": { "glass": { "type": "dielectric", "ior": 1.5 }, "ground": { "type": "diffuse", "reflectance": 0.5 } },
+        "objects": [
+            { "shape": { "type": "quad", "origin": [-w, 0, w], "u": [2.0 * w, 0, 0], "v": [0, 0, -2.0 * w] }, "material": "ground" },
+            { "shape": { "type": "sphere", "center": [0, radius * (1.0 - sunk), 0], "radius": radius }, "material": "glass" }
+        ],
+        "environment": { "radiance": 1 }
+    })
+}
+
+#[test]
+fn a_ball_touches_a_wide_ground_in_a_point() {
+    for sunk in [0.0, 1e-3] {
+        let y =
+            |half_width: f64| mean_y(&render_counting_underflows(&compile_json(&ball_on_ground(half_width, sunk))).0);
+        let near = y(0.5);
+        for half_width in [100.0, 1000.0] {
+            let far = y(half_width);
+            println!("sunk by {sunk}: {near} on 1 m, {far} on {} m", 2.0 * half_width);
+            assert!((far / near - 1.0).abs() < 0.01, "sunk by {sunk}: {near} on 1 m, {far} on {} m", 2.0 * half_width);
+        }
+    }
+}
+
+/// A lamp in a plate of glass of 3 mm over a floor: in its middle, or in its upper face.
+fn lamp_in_plate(half_width: f64, height: f64, integrator: &str) -> Value {
+    let w = half_width;
+    json!({
+        "camera": { "type": "perspective", "from": [0.1, 0.018, 0], "to": [0, 0, 0], "fov_degrees": 12 },
+        "film": { "width": 16, "height": 16 },
+        "render": { "samples_per_pixel": 256, "integrator": integrator, "seed": 0 },
+        "materials": { "glass": { "type": "dielectric", "ior": 1.5 }, "floor": { "type": "diffuse", "reflectance": 0.5 } },
+        "objects": [
+            { "shape": { "type": "quad", "origin": [-w, 0, w], "u": [2.0 * w, 0, 0], "v": [0, 0, -2.0 * w] }, "material": "floor" },
+            { "shape": { "type": "box", "min": [-0.02, 0.02, -0.02], "max": [0.02, 0.023, 0.02] }, "material": "glass" },
+            { "shape": { "type": "disk", "center": [0, height, 0], "normal": [0, -1, 0], "radius": 0.005 }, "emission": 10 }
+        ]
+    })
+}
+
+#[test]
+fn a_lamp_in_thin_glass_stays_there_in_a_wide_scene() {
+    for height in [0.0215, 0.023] {
+        let y = |half_width: f64, integrator: &str| {
+            Estimate::over_seeds(&lamp_in_plate(half_width, height, integrator), 4, mean_y)
+        };
+        let near = y(0.5, "path");
+        for (half_width, integrator) in [(0.5, "light"), (250.0, "path"), (250.0, "light")] {
+            let far = y(half_width, integrator);
+            println!("at {height}: {near:?}, {integrator} in {half_width} m: {far:?}");
+            assert!(
+                (far.mean / near.mean - 1.0).abs() < 0.02,
+                "at {height}: {near:?}, {integrator}, {half_width}: {far:?}"
+            );
+        }
+    }
 }

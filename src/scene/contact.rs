@@ -2,10 +2,13 @@
 //!
 //! A ray meets one of two such surfaces first, and which one is decided by rounding. What is right does not depend on it:
 //! a glass that stands on a table is in optical contact with it, as if it were sunk by a hair. So where an opaque surface
-//! touches a transparent one, the opaque one is met, and the boundary of the glass is as good as absent. Of several opaque
-//! surfaces the lamp is met, and of equals the one that comes later in the file.
+//! touches a transparent one, the opaque one is met, and the boundary of the glass is as good as absent.
+//!
+//! Of several opaque surfaces that touch glass in one place a ray that comes upon the glass first meets a lamp, and of equals
+//! the one later in the file. A ray that comes upon one of them first meets that one: opaque surfaces in one plane are told
+//! apart by rounding, with or without glass.
 
-use super::{Object, ObjectId, Scene, Surface};
+use super::{EmissionStart, Object, ObjectId, Scene, Surface};
 use crate::geometry::{Aabb, AnalyticId, Bvh, Primitive, Ray, TriangleId};
 use glam::Vec3;
 
@@ -24,9 +27,20 @@ pub(super) struct Contacts {
 /// error of a point on a triangle and the steps of a ray's start, in a scene of unit size.
 const REACH: f32 = 1.0 / (1 << 19) as f32;
 
-/// How far from a surface along its normal what touches it can be, and half of how far a ray that leaves either can start.
-fn reach(surface: &Surface) -> f32 {
-    surface.geometric.as_vec3().abs().dot(surface.error) + REACH
+/// Bound of the error with which f64 places a shape in a scene of unit size whose centre is up to 10⁵ sizes from the origin.
+const PLACING: f32 = 1.0 / (1u64 << 34) as f32;
+
+/// How far from a point on a surface along its normal what touches it can be, and half of how far a ray that leaves either
+/// can start.
+fn reach(normal: Vec3, error: Vec3) -> f32 {
+    normal.abs().dot(error) + REACH
+}
+
+/// How far apart two surfaces in one place can come to lie along the opaque one's normal, as far as rounding can tell: the
+/// errors of a point on each, the steps by which the start of a ray is rounded, and the placing of shapes in f64.
+fn rounding(opaque: (Vec3, Vec3), face: &Surface) -> f32 {
+    let (normal, error) = opaque;
+    normal.abs().dot(error + face.error + face.point.abs() * (4.0 * f32::EPSILON)) + PLACING
 }
 
 /// The transparent objects of a scene, each with a box around it and whether something may touch it.
@@ -106,15 +120,30 @@ impl Object {
 }
 
 impl Scene {
-    /// A point near a surface, moved along its normal out of the reach of whatever touches it.
-    pub fn clear_of_contacts(&self, point: Vec3, normal: Vec3) -> Vec3 {
-        if self.contacts.is_some() { point + normal * (2.0 * REACH) } else { point }
+    /// A point just off the start of a light path on the side of the start's normal: past the face of a transparent object
+    /// that the start is in contact with, so that it tells what the path is inside of.
+    pub fn clear_of_contacts(&self, start: &EmissionStart, origin: Vec3) -> Vec3 {
+        let EmissionStart { point, error, normal } = *start;
+        let reach = reach(normal, error);
+        let probe = Ray { origin: point + normal * (2.0 * reach), direction: -normal };
+        let mut clear = origin;
+        let analytic = |index, t_max| Some(self.analytic(index).intersect(&probe, t_max)?.t as f32);
+        if self.contacts.is_some() && normal != Vec3::ZERO {
+            self.bvh.visit(&probe, 4.0 * reach, analytic, |primitive, t| {
+                let Some(face) = self.surface_on(&probe, primitive, t, 4.0 * reach) else { return };
+                let rounding = rounding((normal, error), &face);
+                if self.object(face.object).touched && (face.point - point).dot(normal).abs() <= rounding {
+                    clear = point + normal * (2.0 * rounding);
+                }
+            });
+        }
+        clear
     }
 
     /// Whether a ray that meets a surface set out from what touches it: it is on the other side already if it was before.
     pub fn sets_out_in_contact(&self, surface: &Surface, direction: Vec3) -> bool {
         let climb = || surface.t * surface.geometric.as_vec3().dot(direction).abs();
-        self.object(surface.object).touched && climb() <= 4.0 * reach(surface)
+        self.object(surface.object).touched && climb() <= 4.0 * reach(surface.geometric.as_vec3(), surface.error)
     }
 
     /// What a ray meets that has come upon a transparent object which others may touch.
@@ -131,17 +160,17 @@ impl Scene {
     fn touching(&self, ray: &Ray, surface: &Surface) -> Option<Surface> {
         let contacts = self.contacts.as_ref()?;
         let normal = surface.geometric.as_vec3();
-        let reach = reach(surface);
+        let reach = reach(normal, surface.error);
         let across = |to: Vec3| (to - surface.point).dot(normal).abs();
         // What is there is asked along the normal, so that the answer depends on the place and not on the ray.
         let probe = Ray { origin: surface.point + normal * (2.0 * reach), direction: -normal };
-        let rounding = normal.abs().dot(surface.error + surface.point.abs() * (4.0 * f32::EPSILON));
         let mut touching: Option<Surface> = None;
         contacts.visit(self, &probe, 4.0 * reach, |other| {
-            let gap = across(other.point);
             let precedence = |s: &Surface| self.object(s.object).precedence(s.object);
             let first = touching.is_none_or(|best| precedence(&best) < precedence(&other));
-            if first && gap <= rounding + normal.abs().dot(other.error) + f32::EPSILON * 0.25 {
+            let opaque = other.geometric.as_vec3();
+            let gap = (other.point - surface.point).dot(opaque).abs();
+            if first && gap <= rounding((opaque, other.error), surface) {
                 touching = Some(other);
             }
         });

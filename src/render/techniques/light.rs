@@ -110,7 +110,7 @@ impl LightTracer<'_> {
         workspace.spectra.begin(wavelengths);
         let origin = emission.start.origin(emission.direction);
         let inside = match INTERIORS && light.may_be_inside {
-            true => scene.interiors_at(scene.clear_of_contacts(origin, emission.start.normal)),
+            true => scene.interiors_at(scene.clear_of_contacts(&emission.start, origin)),
             false => Vec::new(),
         };
         workspace.interiors.reset(&inside);
